@@ -1,0 +1,81 @@
+"""Handwritten symbols as strokes, authored here: the allographs of mathematics, and other marks.
+
+Frame: a box about 10 units high, y down, the baseline of most letters at y = 10.
+
+The files hold, for each symbol, its ways of being written ("allographs"), one string each:
+strokes are split by "/", points "x y" by ",", and "*" after a point marks a sharp corner.
+Between corners a stroke follows a Catmull-Rom curve through its points (Catmull and Rom 1974,
+uniform parametrisation).
+"""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from importlib import resources
+
+import numpy as np
+
+from sketch.ink import FloatArray, readonly
+
+STEPS = 8
+"""Points put between two authored ones: the chord error of a half circle stays below 1 %."""
+
+
+def symbols() -> tuple[str, ...]:
+    """The symbols of mathematics that can be written, Greek ones as LaTeX commands."""
+    return tuple(_parsed("allographs.json"))
+
+
+def marks() -> tuple[str, ...]:
+    """Other marks that people draw and that are no component: braces, checks, stars, curls."""
+    return tuple(_parsed("marks.json"))
+
+
+def variants(symbol: str) -> int:
+    """In how many ways the symbol (or mark) can be written. Raises KeyError when it cannot."""
+    return len(_ways(symbol))
+
+
+def strokes(symbol: str, variant: int = 0) -> tuple[FloatArray, ...]:
+    """The strokes of one way (modulo their number) of writing a symbol or mark, each (n, 2).
+
+    Raises KeyError when the symbol cannot be written; `symbols()` and `marks()` list what can.
+    """
+    ways = _ways(symbol)
+    return ways[variant % len(ways)]
+
+
+def _ways(symbol: str) -> tuple[tuple[FloatArray, ...], ...]:
+    for file in ("allographs.json", "marks.json"):
+        if symbol in _parsed(file):
+            return _parsed(file)[symbol]
+    raise KeyError(f"no glyph for {symbol!r}")
+
+
+@cache
+def _parsed(file: str) -> dict[str, tuple[tuple[FloatArray, ...], ...]]:
+    raw: dict[str, list[str]] = json.loads(resources.files("data_gen.glyphs").joinpath(file).read_text("utf-8"))
+    return {
+        symbol: tuple(tuple(_curve(stroke) for stroke in way.split("/")) for way in ways)
+        for symbol, ways in raw.items()
+    }
+
+
+def _curve(text: str) -> FloatArray:
+    nodes = [node.strip() for node in text.split(",")]
+    points = np.array([[float(number) for number in node.rstrip("*").split()] for node in nodes])
+    corners = [0, *(k for k in range(1, len(nodes) - 1) if nodes[k].endswith("*")), len(nodes) - 1]
+    pieces = [_catmull_rom(points[a : b + 1]) for a, b in zip(corners, corners[1:], strict=False)]
+    return readonly(np.concatenate([pieces[0], *(piece[1:] for piece in pieces[1:])]))
+
+
+def _catmull_rom(points: FloatArray) -> FloatArray:
+    """A curve through the points, (n, 2) -> ((n - 1) * STEPS + 1, 2); two points stay a line."""
+    if len(points) == 2:
+        return points
+    padded = np.concatenate([2 * points[:1] - points[1:2], points, 2 * points[-1:] - points[-2:-1]])
+    p0, p1, p2, p3 = (padded[k : len(padded) - 3 + k, None, :] for k in range(4))
+    t = (np.arange(STEPS) / STEPS)[None, :, None]
+    curve = 0.5 * (2 * p1 + (p2 - p0) * t + (2 * p0 - 5 * p1 + 4 * p2 - p3) * t**2 + (3 * p1 - p0 - 3 * p2 + p3) * t**3)
+    return np.concatenate([curve.reshape(-1, 2), points[-1:]])

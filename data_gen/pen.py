@@ -1,0 +1,244 @@
+"""The motion of a pen along the paths it means to draw.
+
+Kinematics after the sigma-lognormal model (Plamondon 1995; O'Reilly and Plamondon 2009): a
+movement is the vector sum of strokelets, each travelling its own piece of the path with a
+lognormal speed, the next one starting before the last has ended. Speed so follows curvature, and
+corners are rounded by overlap in time as a hand rounds them.
+
+Frame: page units, y down; seconds. Everything is vectorised over a ragged batch of strokes; the
+random numbers of each stroke come from its own generator, so a stroke made alone is the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import ndtr
+
+from data_gen.perturb import bow, compose, field, wobble
+from data_gen.writers import Writer, habits
+from sketch.geometry import distinct
+from sketch.ink import FloatArray, Stroke
+
+
+@dataclass(frozen=True, slots=True)
+class PenRule:
+    """Numbers of the pen motion."""
+
+    path_points: int = 160
+    """Points that carry the meant path: 13 for each loop of a spring with 12 coils."""
+    strokelet_turn: float = np.radians(65.0)
+    """A new strokelet begins each time the path has turned this far: every corner, every sixth of a circle."""
+    sigma: float = 0.35
+    """Width of a strokelet's lognormal, log seconds: the skewed bell of measured speed profiles."""
+    isochrony: float = 0.35
+    """A strokelet's time grows as its length to this power: long ones are drawn faster (Viviani 1982)."""
+    reach: float = 2.6
+    """A strokelet is followed over ± this many sigmas; the tails left out are 0.9 % of it and are rescaled."""
+    slowest: float = 25.0
+    """Strokelets of one stroke never take longer than this together, seconds."""
+    fewest: int = 2
+    """A stroke that moves has at least this many samples."""
+    most: int = 360
+    """More samples than this are thinned evenly; real strokes of these kinds stay below."""
+    hook: tuple[float, float] = (0.02, 0.06)
+    """Length of a hook, fraction of the stroke's size."""
+    shake: float = 9.0
+    """Frequency of tremor, Hz: physiological tremor is 8 to 12 Hz."""
+
+
+RULE = PenRule()
+
+
+def draw(paths: Sequence[FloatArray], writer: Writer, rng: np.random.Generator) -> list[Stroke]:
+    """Draws each path, (n, 2) page units, as one stroke of one writer; times start at 0 in each."""
+    rngs = rng.spawn(len(paths))
+    return strokes_from(draw_batch(paths, [writer] * len(paths), rngs))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Batch:
+    """Many strokes one below the other: points (P, 2), times (P,), pressure (P,); stroke k owns rows
+    offsets[k] : offsets[k + 1]."""
+
+    points: FloatArray
+    times: FloatArray
+    pressure: FloatArray
+    offsets: np.ndarray[tuple[int], np.dtype[np.int64]]
+
+
+def strokes_from(batch: Batch) -> list[Stroke]:
+    """The batch as strokes."""
+    return [
+        Stroke(batch.points[a:b], batch.times[a:b], batch.pressure[a:b])
+        for a, b in zip(batch.offsets[:-1].tolist(), batch.offsets[1:].tolist(), strict=True)
+    ]
+
+
+def draw_batch(
+    paths: Sequence[FloatArray], writers: Sequence[Writer], rngs: Sequence[np.random.Generator]
+) -> Batch:
+    """Draws path k, (n, 2) page units, by writer k with the generator k."""
+    if not paths:
+        empty = np.empty(0)
+        return Batch(np.empty((0, 2)), empty, empty, np.zeros(1, dtype=np.int64))
+    habit = habits(writers)
+    hand = compose(field(0.6 * habit["wobble"]), wobble(habit["wobble"]), bow(0.8 * habit["wobble"]))
+    normals = np.array([rng.standard_normal(hand.draws + 8) for rng in rngs])
+    hooked = [_hooked(path, share, rng) for path, share, rng in zip(paths, habit["hooks"], rngs, strict=True)]
+    meant = hand.apply(resample_many(hooked, RULE.path_points), normals[:, : hand.draws])
+    points, times, offsets = _travel(meant, habit, normals[:, hand.draws :])
+    points = _shaken(points, times, offsets, meant, habit, normals[:, hand.draws :], rngs)
+    points = _rounded(points, np.repeat(habit["grid"], np.diff(offsets)))
+    return Batch(points, times, _pressure(offsets, habit, normals[:, hand.draws :]), offsets)
+
+
+def resample_many(paths: Sequence[FloatArray], count: int) -> FloatArray:
+    """Each path at `count` points of equal spacing: (B, count, 2). One interpolation for all."""
+    sizes = np.array([len(path) for path in paths])
+    stacked = np.concatenate(paths)
+    steps = np.linalg.norm(np.diff(stacked, axis=0), axis=1)
+    firsts = np.concatenate([[0], np.cumsum(sizes)[:-1]])
+    steps[firsts[1:] - 1] = 0.0
+    travelled = np.concatenate([[0.0], np.cumsum(steps)])
+    begin = travelled[firsts]
+    length = travelled[firsts + sizes - 1] - begin
+    owner = np.repeat(np.arange(len(paths)), sizes)
+    # Path k lives on the interval [2k, 2k + 1] of one long axis.
+    place = 2.0 * owner + (travelled - begin[owner]) / np.where(length > 0, length, 1.0)[owner]
+    wanted = 2.0 * np.arange(len(paths))[:, None] + np.linspace(0.0, 1.0, count)
+    return np.stack([np.interp(wanted, place, stacked[:, axis]) for axis in (0, 1)], axis=-1)
+
+
+def _hooked(path: FloatArray, share: float, rng: np.random.Generator) -> FloatArray:
+    """The path with, now and then, a short hook where the pen comes down or leaves."""
+    at_start, at_end, length, angle_start, angle_end = rng.random(5).tolist()
+    if at_start >= share and at_end >= share:
+        return path
+    size = float(np.linalg.norm(path.max(axis=0) - path.min(axis=0)))
+    reach = size * (RULE.hook[0] + length * (RULE.hook[1] - RULE.hook[0]))
+    pieces = [path]
+    if at_start < share:
+        angle = 2 * np.pi * angle_start
+        pieces.insert(0, path[:1] + reach * np.array([[np.cos(angle), np.sin(angle)]]))
+    if at_end < share:
+        angle = 2 * np.pi * angle_end
+        pieces.append(path[-1:] + reach * np.array([[np.cos(angle), np.sin(angle)]]))
+    return np.concatenate(pieces)
+
+
+def _travel(
+    meant: FloatArray, habit: dict[str, FloatArray], normals: FloatArray
+) -> tuple[FloatArray, FloatArray, np.ndarray[tuple[int], np.dtype[np.int64]]]:
+    """Sums the strokelets along the meant paths and samples the motion at the writer's rate."""
+    count, steps = meant.shape[0], meant.shape[1] - 1
+    step = np.diff(meant, axis=1)
+    heading = np.arctan2(step[..., 1], step[..., 0])
+    bend = np.abs((np.diff(heading, axis=1) + np.pi) % (2 * np.pi) - np.pi)
+    turned = np.cumsum(bend, axis=1) / RULE.strokelet_turn
+    # A new strokelet begins at path point j + 1 where the turn so far passes a whole number.
+    begins = np.diff(np.floor(turned), axis=1, prepend=0.0) > 0
+    first = np.concatenate([np.ones((count, 1), dtype=bool), begins], axis=1)
+    owner, from_ = np.nonzero(first)
+    pieces = np.bincount(owner, minlength=count)
+    last = np.concatenate([owner[1:] != owner[:-1], [True]])
+    to = np.where(last, steps, np.concatenate([from_[1:], [0]]))
+    start, duration, total = _timing(meant, owner, from_, to, habit, normals)
+    samples = np.clip(np.ceil(total * habit["rate"]).astype(int) + 1, RULE.fewest, RULE.most)
+    offsets = np.concatenate([[0], np.cumsum(samples)])
+    clock = np.concatenate([np.linspace(0.0, t, n) for t, n in zip(total, samples, strict=True)])
+    # Every strokelet of a stroke is looked up at every sample of that stroke: flat, ragged pairs.
+    lengths = samples[owner]
+    strokelet = np.repeat(np.arange(len(owner)), lengths)
+    begin = np.concatenate([[0], np.cumsum(lengths)[:-1]])
+    sample = np.arange(lengths.sum()) - np.repeat(begin, lengths) + np.repeat(offsets[owner], lengths)
+    share = _lognormal_progress((clock[sample] - start[strokelet]) / duration[strokelet])
+    place = from_[strokelet] + share * (to - from_)[strokelet]
+    low = np.minimum(place.astype(int), steps - 1)
+    flat = meant.reshape(-1, 2)
+    row = owner[strokelet] * meant.shape[1] + low
+    reached = flat[row] + (place - low)[:, None] * (flat[row + 1] - flat[row])
+    moved = reached - flat[owner * meant.shape[1] + from_][strokelet]
+    points = np.repeat(meant[:, 0], samples, axis=0)
+    for axis in (0, 1):
+        points[:, axis] += np.bincount(sample, weights=moved[:, axis], minlength=len(clock))
+    assert pieces.min() >= 1
+    return points, clock, offsets
+
+
+def _timing(
+    meant: FloatArray,
+    owner: np.ndarray[tuple[int], np.dtype[np.int64]],
+    from_: np.ndarray[tuple[int], np.dtype[np.int64]],
+    to: np.ndarray[tuple[int], np.dtype[np.int64]],
+    habit: dict[str, FloatArray],
+    normals: FloatArray,
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Start and duration of each strokelet, and the total time of each stroke, seconds."""
+    share = (to - from_) / (meant.shape[1] - 1)
+    pieces = np.bincount(owner)
+    # Length against the stroke's mean strokelet; a stroke of one strokelet has the unit time.
+    duration = (share * pieces[owner]) ** RULE.isochrony / habit["speed"][owner]
+    duration *= np.exp(0.12 * normals[owner, (np.arange(len(owner)) % 6)])
+    whole = np.bincount(owner, weights=duration)
+    duration *= np.minimum(1.0, RULE.slowest / whole)[owner]
+    advance = duration * (1.0 - habit["overlap"][owner])
+    before = np.cumsum(advance) - advance
+    first = np.concatenate([[True], owner[1:] != owner[:-1]])
+    start = before - before[first][owner]
+    total = np.maximum.reduceat(start + duration, np.nonzero(first)[0])
+    return start, duration, total
+
+
+def _lognormal_progress(phase: FloatArray) -> FloatArray:
+    """Share of a strokelet done at a phase of its time (0 start, 1 end): a lognormal's distribution function.
+
+    The bell is cut at ± `reach` sigmas and rescaled, so that 0 and 1 are met exactly.
+    """
+    low, high = np.exp(-RULE.reach * RULE.sigma), np.exp(RULE.reach * RULE.sigma)
+    time = low + np.clip(phase, 0.0, 1.0) * (high - low)
+    tail = ndtr(-RULE.reach)
+    return (ndtr(np.log(time) / RULE.sigma) - tail) / (1 - 2 * tail)
+
+
+def _shaken(
+    points: FloatArray,
+    times: FloatArray,
+    offsets: np.ndarray[tuple[int], np.dtype[np.int64]],
+    meant: FloatArray,
+    habit: dict[str, FloatArray],
+    normals: FloatArray,
+    rngs: Sequence[np.random.Generator],
+) -> FloatArray:
+    """Tremor: an oscillation at the hand's own frequency and the digitiser's independent noise."""
+    sizes = np.linalg.norm(meant.max(axis=1) - meant.min(axis=1), axis=1)
+    counts = np.diff(offsets)
+    amount = np.repeat(habit["tremor"] * sizes, counts)[:, None]
+    noise = np.concatenate([rng.standard_normal((n, 2)) for rng, n in zip(rngs, counts.tolist(), strict=True)])
+    frequency = RULE.shake * np.exp(0.15 * normals[:, 6])
+    phase = 2 * np.pi * (np.repeat(frequency, counts) * times)[:, None] + np.repeat(normals[:, 6:8], counts, axis=0) * 3
+    return points + amount * (0.7 * noise + np.sin(phase))
+
+
+def _rounded(points: FloatArray, grid: FloatArray) -> FloatArray:
+    """Points on their device's pixel grid."""
+    size = np.where(grid > 0, grid, 1.0)[:, None]
+    return np.where(grid[:, None] > 0, np.round(points / size) * size, points)
+
+
+def _pressure(
+    offsets: np.ndarray[tuple[int], np.dtype[np.int64]], habit: dict[str, FloatArray], normals: FloatArray
+) -> FloatArray:
+    """Pressure rises within the first tenth of a stroke, falls in the last, and drifts in between."""
+    counts = np.diff(offsets)
+    place = (np.arange(offsets[-1]) - np.repeat(offsets[:-1], counts)) / np.repeat(np.maximum(counts - 1, 1), counts)
+    envelope = np.minimum(1.0, 0.35 + 6.5 * np.minimum(place, 1 - place))
+    drift = 1.0 + 0.1 * np.repeat(normals[:, 0], counts) * np.sin(2 * np.pi * place)
+    return np.clip(np.repeat(habit["pressure"], counts) * envelope * drift, 0.0, 1.0)
+
+
+def smooth_length(stroke: Stroke) -> int:
+    """Number of distinct neighbouring points of a stroke."""
+    return len(distinct(stroke.points))

@@ -1,0 +1,76 @@
+"""Writers: the habits that one person keeps from stroke to stroke.
+
+A habit is a number with a unit; `sample_writer` draws a person. Ranges are what adults with a
+mouse, a finger or a pen show on loosely guided drawings; each field says why.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from sketch.ink import FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Writer:
+    """One person's habits, as `data_gen.pen` and `data_gen.pages` read them."""
+
+    slant: float
+    """Shear x += slant · (−y) of letters; right-handers lean right (about 0.1)."""
+    stretch: float
+    """log of width over height of letters against the copybook's."""
+    wobble: float
+    """Slow waver of a path, rms fraction of the stroke's size: memory of form and arm posture."""
+    tremor: float
+    """Fast jitter, rms fraction of the stroke's size."""
+    overlap: float
+    """How much of a strokelet's time the next one shares; more haste rounds corners more."""
+    speed: float
+    """Strokelets per second: 4 to 9 in handwriting (Plamondon 1995)."""
+    hooks: float
+    """Share of strokes with a small hook at pen-down or pen-up."""
+    gap: float
+    """Mean of the closing error of closed shapes, fraction of the perimeter; negative stops short."""
+    rate: float
+    """Samples per second of the digitiser: 20 (slow web page) to 250 Hz (tablet)."""
+    grid: float
+    """Pixel size in page units to which points are rounded; 0 for a sub-pixel stylus."""
+    zigzag: float
+    """Share of springs drawn as zig-zag, the rest as coils."""
+    pieces: float
+    """Share of polygons drawn in several strokes, lifting the pen at corners."""
+    height: float
+    """Height of a capital letter, page units."""
+    pressure: float
+    """Mean pressure, 0 to 1."""
+
+
+def sample_writer(rng: np.random.Generator) -> Writer:
+    """A person drawn at random. Consumes the same number of variates whatever comes out."""
+    u, z = rng.random(8), rng.standard_normal(8)
+    return Writer(
+        slant=float(0.1 + 0.15 * z[0]),
+        stretch=float(0.15 * z[1]),
+        wobble=float(0.010 * np.exp(0.6 * z[2])),
+        tremor=float(0.0018 * np.exp(0.8 * z[3])),
+        overlap=float(0.05 + 0.4 * u[0]),
+        speed=float(np.exp(np.log(5.5) + 0.35 * z[4])),
+        hooks=float(0.35 * u[1] ** 2),
+        gap=float(0.02 * z[5]),
+        rate=float(np.exp(np.log(20) + (np.log(250) - np.log(20)) * np.sqrt(u[2]))),
+        grid=(0.0, 1.0, 0.25)[int(3 * u[3])],
+        zigzag=float(u[4]),
+        pieces=float(0.5 * u[5] ** 2),
+        height=float(16 + 14 * u[6]),
+        pressure=float(0.35 + 0.35 * u[7]),
+    )
+
+
+def habits(writers: Sequence[Writer]) -> dict[str, FloatArray]:
+    """The writers' habits column by column: field -> (len(writers),)."""
+    return {
+        item.name: np.array([getattr(writer, item.name) for writer in writers], dtype=float) for item in fields(Writer)
+    }
