@@ -47,12 +47,17 @@ class Claim:
 class Recognizer(Protocol):
     """A rival. It sees the whole page, so that it may use context; it answers stroke by stroke.
 
-    recognize returns one claim for each stroke of the ink, in the ink's order, for any ink that
-    `Ink` accepts, an empty page included. The same ink gives the same claims.
+    claims: the kinds that it can claim at all; a stroke of any other kind it must get wrong, which
+    a contest reports instead of hiding. recognize returns one claim for each stroke of the ink, in
+    the ink's order, for any ink that `Ink` accepts, an empty page included. The same ink gives the
+    same claims.
     """
 
     @property
     def name(self) -> str: ...
+
+    @property
+    def claims(self) -> frozenset[StrokeKind]: ...
 
     def recognize(self, ink: Ink) -> tuple[Claim, ...]: ...
 
