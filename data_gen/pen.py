@@ -15,12 +15,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import ndtr
 
 from data_gen.perturb import bow, compose, field, wobble
 from data_gen.writers import Writer, habits
-from sketch.geometry import distinct
+from sketch.geometry import resample
 from sketch.ink import FloatArray, Stroke
+
+Indices = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +69,7 @@ class Batch:
     points: FloatArray
     times: FloatArray
     pressure: FloatArray
-    offsets: np.ndarray[tuple[int], np.dtype[np.int64]]
+    offsets: Indices
 
 
 def strokes_from(batch: Batch) -> list[Stroke]:
@@ -88,28 +91,12 @@ def draw_batch(
     hand = compose(field(0.6 * habit["wobble"]), wobble(habit["wobble"]), bow(0.8 * habit["wobble"]))
     normals = np.array([rng.standard_normal(hand.draws + 8) for rng in rngs])
     hooked = [_hooked(path, share, rng) for path, share, rng in zip(paths, habit["hooks"], rngs, strict=True)]
-    meant = hand.apply(resample_many(hooked, RULE.path_points), normals[:, : hand.draws])
+    even = np.array([resample(path, RULE.path_points) for path in hooked])
+    meant = hand.apply(even, normals[:, : hand.draws])
     points, times, offsets = _travel(meant, habit, normals[:, hand.draws :])
     points = _shaken(points, times, offsets, meant, habit, normals[:, hand.draws :], rngs)
     points = _rounded(points, np.repeat(habit["grid"], np.diff(offsets)))
     return Batch(points, times, _pressure(offsets, habit, normals[:, hand.draws :]), offsets)
-
-
-def resample_many(paths: Sequence[FloatArray], count: int) -> FloatArray:
-    """Each path at `count` points of equal spacing: (B, count, 2). One interpolation for all."""
-    sizes = np.array([len(path) for path in paths])
-    stacked = np.concatenate(paths)
-    steps = np.linalg.norm(np.diff(stacked, axis=0), axis=1)
-    firsts = np.concatenate([[0], np.cumsum(sizes)[:-1]])
-    steps[firsts[1:] - 1] = 0.0
-    travelled = np.concatenate([[0.0], np.cumsum(steps)])
-    begin = travelled[firsts]
-    length = travelled[firsts + sizes - 1] - begin
-    owner = np.repeat(np.arange(len(paths)), sizes)
-    # Path k lives on the interval [2k, 2k + 1] of one long axis.
-    place = 2.0 * owner + (travelled - begin[owner]) / np.where(length > 0, length, 1.0)[owner]
-    wanted = 2.0 * np.arange(len(paths))[:, None] + np.linspace(0.0, 1.0, count)
-    return np.stack([np.interp(wanted, place, stacked[:, axis]) for axis in (0, 1)], axis=-1)
 
 
 def _hooked(path: FloatArray, share: float, rng: np.random.Generator) -> FloatArray:
@@ -131,65 +118,82 @@ def _hooked(path: FloatArray, share: float, rng: np.random.Generator) -> FloatAr
 
 def _travel(
     meant: FloatArray, habit: dict[str, FloatArray], normals: FloatArray
-) -> tuple[FloatArray, FloatArray, np.ndarray[tuple[int], np.dtype[np.int64]]]:
+) -> tuple[FloatArray, FloatArray, Indices]:
     """Sums the strokelets along the meant paths and samples the motion at the writer's rate."""
-    count, steps = meant.shape[0], meant.shape[1] - 1
+    owner, from_, to = _strokelets(meant)
+    start, end, total = _timing(meant, owner, from_, to, habit, normals)
+    samples = np.clip(np.ceil(total * habit["rate"]).astype(int) + 1, RULE.fewest, RULE.most)
+    offsets = np.concatenate([[0], np.cumsum(samples)])
+    stroke_of = np.repeat(np.arange(len(samples)), samples)
+    interval = total / (samples - 1)
+    clock = (np.arange(offsets[-1]) - offsets[stroke_of]) * interval[stroke_of]
+    # What the strokelets that are done have moved is where the first one still to be done begins.
+    opening = np.minimum((start / interval[owner]).astype(int) + 1, samples[owner])
+    closing = np.minimum(np.ceil(end / interval[owner]).astype(int), samples[owner] - 1)
+    finished = np.bincount(offsets[owner] + closing, minlength=int(offsets[-1]))
+    ended = np.cumsum(finished)
+    pending = np.minimum(ended, (np.searchsorted(owner, np.arange(len(samples)), side="right") - 1)[stroke_of])
+    flat = meant.reshape(-1, 2)
+    row0 = owner * meant.shape[1]
+    origin = flat[row0 + from_]
+    base = np.where((ended > pending)[:, None], flat[row0 + to][pending], origin[pending])
+    # The strokelets under way at each sample, as flat pairs.
+    lengths = np.maximum(closing - opening, 0)
+    strokelet = np.repeat(np.arange(len(owner)), lengths)
+    into = np.arange(lengths.sum()) - np.repeat(np.cumsum(lengths) - lengths, lengths)
+    sample = (offsets[owner] + opening)[strokelet] + into
+    share = _lognormal_progress((clock[sample] - start[strokelet]) / (end - start)[strokelet])
+    place = from_[strokelet] + share * (to - from_)[strokelet]
+    low = np.minimum(place.astype(int), meant.shape[1] - 2)
+    row = row0[strokelet] + low
+    moved = flat[row] + (place - low)[:, None] * (flat[row + 1] - flat[row]) - origin[strokelet]
+    for axis in (0, 1):
+        base[:, axis] += np.bincount(sample, weights=moved[:, axis], minlength=len(clock))
+    return base, clock, offsets
+
+
+def _strokelets(meant: FloatArray) -> tuple[Indices, Indices, Indices]:
+    """Cuts each path where it has turned enough: owner, first and last path point of each strokelet."""
+    steps = meant.shape[1] - 1
     step = np.diff(meant, axis=1)
     heading = np.arctan2(step[..., 1], step[..., 0])
     bend = np.abs((np.diff(heading, axis=1) + np.pi) % (2 * np.pi) - np.pi)
     turned = np.cumsum(bend, axis=1) / RULE.strokelet_turn
-    # A new strokelet begins at path point j + 1 where the turn so far passes a whole number.
+    # A strokelet begins at path point j + 1 where the turn so far passes a whole number.
     begins = np.diff(np.floor(turned), axis=1, prepend=0.0) > 0
-    first = np.concatenate([np.ones((count, 1), dtype=bool), begins], axis=1)
+    first = np.concatenate([np.ones((len(meant), 1), dtype=bool), begins], axis=1)
     owner, from_ = np.nonzero(first)
-    pieces = np.bincount(owner, minlength=count)
     last = np.concatenate([owner[1:] != owner[:-1], [True]])
-    to = np.where(last, steps, np.concatenate([from_[1:], [0]]))
-    start, duration, total = _timing(meant, owner, from_, to, habit, normals)
-    samples = np.clip(np.ceil(total * habit["rate"]).astype(int) + 1, RULE.fewest, RULE.most)
-    offsets = np.concatenate([[0], np.cumsum(samples)])
-    clock = np.concatenate([np.linspace(0.0, t, n) for t, n in zip(total, samples, strict=True)])
-    # Every strokelet of a stroke is looked up at every sample of that stroke: flat, ragged pairs.
-    lengths = samples[owner]
-    strokelet = np.repeat(np.arange(len(owner)), lengths)
-    begin = np.concatenate([[0], np.cumsum(lengths)[:-1]])
-    sample = np.arange(lengths.sum()) - np.repeat(begin, lengths) + np.repeat(offsets[owner], lengths)
-    share = _lognormal_progress((clock[sample] - start[strokelet]) / duration[strokelet])
-    place = from_[strokelet] + share * (to - from_)[strokelet]
-    low = np.minimum(place.astype(int), steps - 1)
-    flat = meant.reshape(-1, 2)
-    row = owner[strokelet] * meant.shape[1] + low
-    reached = flat[row] + (place - low)[:, None] * (flat[row + 1] - flat[row])
-    moved = reached - flat[owner * meant.shape[1] + from_][strokelet]
-    points = np.repeat(meant[:, 0], samples, axis=0)
-    for axis in (0, 1):
-        points[:, axis] += np.bincount(sample, weights=moved[:, axis], minlength=len(clock))
-    assert pieces.min() >= 1
-    return points, clock, offsets
+    return owner, from_, np.where(last, steps, np.concatenate([from_[1:], [0]]))
 
 
 def _timing(
     meant: FloatArray,
-    owner: np.ndarray[tuple[int], np.dtype[np.int64]],
-    from_: np.ndarray[tuple[int], np.dtype[np.int64]],
-    to: np.ndarray[tuple[int], np.dtype[np.int64]],
+    owner: Indices,
+    from_: Indices,
+    to: Indices,
     habit: dict[str, FloatArray],
     normals: FloatArray,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Start and duration of each strokelet, and the total time of each stroke, seconds."""
+    """Start and end of each strokelet and the total time of each stroke, seconds; ends are in order."""
     share = (to - from_) / (meant.shape[1] - 1)
     pieces = np.bincount(owner)
+    first = np.searchsorted(owner, np.arange(len(pieces)))
+    rank = np.arange(len(owner)) - first[owner]
     # Length against the stroke's mean strokelet; a stroke of one strokelet has the unit time.
     duration = (share * pieces[owner]) ** RULE.isochrony / habit["speed"][owner]
-    duration *= np.exp(0.12 * normals[owner, (np.arange(len(owner)) % 6)])
-    whole = np.bincount(owner, weights=duration)
-    duration *= np.minimum(1.0, RULE.slowest / whole)[owner]
-    advance = duration * (1.0 - habit["overlap"][owner])
-    before = np.cumsum(advance) - advance
-    first = np.concatenate([[True], owner[1:] != owner[:-1]])
-    start = before - before[first][owner]
-    total = np.maximum.reduceat(start + duration, np.nonzero(first)[0])
-    return start, duration, total
+    duration *= np.exp(0.12 * normals[owner, rank % 6])
+    start, end, total = (np.zeros(len(owner)), np.zeros(len(owner)), np.zeros(len(pieces)))
+    for turn in range(int(pieces.max())):
+        now = first[pieces > turn] + turn
+        begin = np.zeros(len(now))
+        if turn > 0:
+            shared = np.minimum(duration[now - 1], duration[now])
+            begin = end[now - 1] - habit["overlap"][owner[now]] * shared
+        start[now], end[now] = begin, begin + duration[now]
+        total[owner[now]] = end[now]
+    squeeze = np.minimum(1.0, RULE.slowest / total)
+    return start * squeeze[owner], end * squeeze[owner], total * squeeze
 
 
 def _lognormal_progress(phase: FloatArray) -> FloatArray:
@@ -206,7 +210,7 @@ def _lognormal_progress(phase: FloatArray) -> FloatArray:
 def _shaken(
     points: FloatArray,
     times: FloatArray,
-    offsets: np.ndarray[tuple[int], np.dtype[np.int64]],
+    offsets: Indices,
     meant: FloatArray,
     habit: dict[str, FloatArray],
     normals: FloatArray,
@@ -219,7 +223,7 @@ def _shaken(
     noise = np.concatenate([rng.standard_normal((n, 2)) for rng, n in zip(rngs, counts.tolist(), strict=True)])
     frequency = RULE.shake * np.exp(0.15 * normals[:, 6])
     phase = 2 * np.pi * (np.repeat(frequency, counts) * times)[:, None] + np.repeat(normals[:, 6:8], counts, axis=0) * 3
-    return points + amount * (0.7 * noise + np.sin(phase))
+    return points + amount * (0.6 * noise + np.sin(phase))
 
 
 def _rounded(points: FloatArray, grid: FloatArray) -> FloatArray:
@@ -229,7 +233,7 @@ def _rounded(points: FloatArray, grid: FloatArray) -> FloatArray:
 
 
 def _pressure(
-    offsets: np.ndarray[tuple[int], np.dtype[np.int64]], habit: dict[str, FloatArray], normals: FloatArray
+    offsets: Indices, habit: dict[str, FloatArray], normals: FloatArray
 ) -> FloatArray:
     """Pressure rises within the first tenth of a stroke, falls in the last, and drifts in between."""
     counts = np.diff(offsets)
@@ -237,8 +241,3 @@ def _pressure(
     envelope = np.minimum(1.0, 0.35 + 6.5 * np.minimum(place, 1 - place))
     drift = 1.0 + 0.1 * np.repeat(normals[:, 0], counts) * np.sin(2 * np.pi * place)
     return np.clip(np.repeat(habit["pressure"], counts) * envelope * drift, 0.0, 1.0)
-
-
-def smooth_length(stroke: Stroke) -> int:
-    """Number of distinct neighbouring points of a stroke."""
-    return len(distinct(stroke.points))

@@ -55,7 +55,7 @@ def sample_writer(rng: np.random.Generator) -> Writer:
         slant=float(0.1 + 0.15 * z[0]),
         stretch=float(0.15 * z[1]),
         wobble=float(0.010 * np.exp(0.6 * z[2])),
-        tremor=float(0.0018 * np.exp(0.8 * z[3])),
+        tremor=float(0.0013 * np.exp(0.7 * z[3])),
         overlap=float(0.05 + 0.4 * u[0]),
         speed=float(np.exp(np.log(5.5) + 0.35 * z[4])),
         hooks=float(0.35 * u[1] ** 2),
