@@ -1,0 +1,135 @@
+"""What only the page can tell: taps, scribbles and lassos.
+
+A dot is small beside the strokes around it; a scribble goes to and fro over ink that was there
+before; a lasso closes round ink that was there before. Frame: page units, y down; lengths are
+compared with other ink, so that the page's scale is no matter (but for a stroke alone on it).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from recognizer.geometric.ring import ring
+from recognizer.geometric.teeth import teeth
+from recognizer.preprocess import spaced, unit_path
+from sketch.geometry import diagonal, resample
+from sketch.ink import FloatArray, Ink, Stroke
+from sketch.page import GestureKind
+
+
+@dataclass(frozen=True, slots=True)
+class GestureRule:
+    """What makes a stroke a gesture."""
+
+    dot: float = 0.25
+    """A tap's size over the median stroke's, at most: the dot of an i is a sixth of its stem, a
+    comma a third of a letter."""
+    dot_of_largest: float = 0.08
+    """The same over the page's largest stroke, where letters do not set the median: shapes on a page
+    are seldom below a tenth of the largest."""
+    dot_time: float = 0.4
+    """Seconds a tap lasts, at most, where times are known: a slow click."""
+    lone_size: float = 6.0
+    """Page units (6 cm at 100 units to the metre). A stroke alone has nothing to be small beside."""
+    lone_points: int = 5
+    """Points of a lone tap, at most: small ink in unknown units has more."""
+    swings: int = 5
+    """Legs of a scribble: a pen that erases goes there and back at least twice."""
+    dense: float = 1.0
+    """A scribble's pitch over its height, at most: it covers, where a wave passes over."""
+    hits: int = 3
+    """Crossings with one earlier stroke before a scribble means that stroke: a spring crosses the
+    shape it ends at once or twice."""
+    looked_at: int = 32
+    """Latest of the earlier strokes in a gesture's box that are looked at: what people erase or select
+    they drew lately, and a page of 10,000 strokes stays a matter of seconds."""
+    gap: float = 0.3
+    """Between the ends of a lasso, as a fraction of its size: drawn in haste."""
+    loose: float = 0.2
+    """Stray of a lasso's overhanging ends, as a fraction of its size."""
+    enclosed: float = 0.9
+    """Share of another stroke's points within a lasso before that stroke is meant."""
+    worth: float = 0.1
+    """Size of an enclosed stroke over the lasso's: smaller ones are dots and blemishes."""
+
+
+GESTURES = GestureRule()
+
+
+def gestures(ink: Ink, rule: GestureRule = GESTURES) -> list[GestureKind | None]:
+    """For each stroke the gesture that its surroundings make it, or None."""
+    found: list[GestureKind | None] = [None] * len(ink)
+    if len(ink) == 0:
+        return found
+    sizes = np.array([diagonal(stroke.points) for stroke in ink])
+    tiny = dots(ink, sizes, rule)
+    boxes = shapely.box(*np.array([_box(stroke) for stroke in ink]).T)
+    tree = shapely.STRtree(boxes)
+    for index, stroke in enumerate(ink):
+        if tiny[index]:
+            found[index] = "tap"
+            continue
+        near = tree.query(boxes[index])
+        earlier = np.sort(near[(near < index) & ~tiny[near]])[-rule.looked_at :].tolist()
+        if not earlier:
+            continue
+        if is_scribble(stroke, [ink[other] for other in earlier], rule):
+            found[index] = "scribble"
+        else:
+            worthy = [ink[other] for other in earlier if sizes[other] > rule.worth * sizes[index]]
+            if is_lasso(stroke, worthy, rule):
+                found[index] = "lasso"
+    return found
+
+
+def dots(ink: Ink, sizes: FloatArray, rule: GestureRule = GESTURES) -> NDArray[np.bool_]:
+    """Which strokes are dots, (n,); sizes (n,) page units are the strokes' diagonals."""
+    quick = np.array([_seconds(stroke) <= rule.dot_time for stroke in ink])
+    still = sizes == 0
+    if len(ink) == 1:
+        return still | (quick & (sizes <= rule.lone_size) & (len(ink[0]) <= rule.lone_points))
+    drawn = sizes[~still]
+    if len(drawn) == 0:
+        return still
+    limit = min(rule.dot * float(np.median(drawn)), rule.dot_of_largest * float(drawn.max()))
+    return still | (quick & (sizes <= limit))
+
+
+def is_scribble(stroke: Stroke, earlier: list[Stroke], rule: GestureRule = GESTURES) -> bool:
+    """Whether the stroke goes to and fro over one of the earlier strokes."""
+    path = unit_path(stroke)
+    found = teeth(spaced(path))
+    if found.legs < rule.swings or found.pitch > rule.dense * found.height:
+        return False
+    line = shapely.LineString(stroke.points)
+    lines = [shapely.LineString(other.points) for other in earlier if len(other) > 1]
+    crossed = shapely.get_num_geometries(shapely.intersection(line, lines)) if lines else np.zeros(1)
+    return bool((crossed >= rule.hits).any())
+
+
+def is_lasso(stroke: Stroke, earlier: list[Stroke], rule: GestureRule = GESTURES) -> bool:
+    """Whether the stroke closes round one of the earlier strokes."""
+    if not earlier:
+        return False
+    outline = ring(resample(unit_path(stroke), 48))
+    if outline is None or outline.gap > rule.gap or outline.loose > rule.loose:
+        return False
+    inside = shapely.Polygon(stroke.points) if len(stroke) > 2 else None
+    if inside is None:
+        return False
+    shapely.prepare(inside)
+    return any(
+        float(shapely.contains_xy(inside, *other.points.T).mean()) >= rule.enclosed for other in earlier
+    )
+
+
+def _seconds(stroke: Stroke) -> float:
+    return float(stroke.times[-1] - stroke.times[0]) if stroke.times is not None else 0.0
+
+
+def _box(stroke: Stroke) -> FloatArray:
+    return np.concatenate([stroke.points.min(axis=0), stroke.points.max(axis=0)])

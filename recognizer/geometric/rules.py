@@ -1,0 +1,225 @@
+"""Soft rules: how well one stroke, seen alone, answers to each kind.
+
+Every rule is a sum of logarithms of soft comparisons, each near 0 where the stroke is as the kind
+should be and falling where it is not; `evidence` gives the sum for each kind. Thresholds lie
+where the geometry of neighbouring kinds puts them, midway between the shapes named; none was
+fitted to ink. Frame: lengths are fractions of the stroke's size (its bounding box's diagonal).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import exp, log, log1p, radians
+
+import numpy as np
+
+from recognizer.geometric.arrows import head
+from recognizer.geometric.legs import best_legs
+from recognizer.geometric.ring import Ring, ring
+from recognizer.geometric.teeth import Teeth, teeth
+from recognizer.preprocess import spaced
+from sketch.geometry import path_length, resample
+from sketch.ink import FloatArray
+from sketch.page import STROKE_KINDS, StrokeKind
+
+
+@dataclass(frozen=True, slots=True)
+class Bound:
+    """A soft bound: half belief `at`, 73 % one `width` to the good side, 27 % one to the bad."""
+
+    at: float
+    width: float
+
+    def below(self, value: float) -> float:
+        """Logarithm of the belief that the value is small enough."""
+        return _log_logistic((self.at - value) / self.width)
+
+    def above(self, value: float) -> float:
+        """Logarithm of the belief that the value is large enough."""
+        return _log_logistic((value - self.at) / self.width)
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """The bounds, and why they lie where they lie."""
+
+    points: int = 64
+    """Points of the path for outlines and wires: 16 on the side of a square."""
+    gap: Bound = Bound(0.28, 0.04)
+    """Between the ends of a closed outline. A careless circle leaves a tenth open; the mouth of a C
+    is a third of its size and more, the open side of [ two thirds."""
+    loose: Bound = Bound(0.17, 0.03)
+    """Stray of what hangs over a closed outline. Straight tails past the closure reach a tenth; the
+    arms of an x that closes one side, the tail of a 9, a third."""
+    rounder: Bound = Bound(0.2, 0.25)
+    """Logarithm of (distance from the ellipse / distance from the polygon). A circle drawn with 3 %
+    of wobble has −0.8, a square drawn with 2 % +1.4."""
+    round: Bound = Bound(0.13, 0.02)
+    """Spread of a circle's radii. A careful square has 0.11 with no wobble at all, but that is for
+    `rounder` to see; beyond it is neither."""
+    thin: Bound = Bound(0.25, 0.04)
+    """Smaller over larger axis of a circle. An ellipse of 3:1 was meant as a circle seen at an
+    angle, one of 5:1 is a slip of a line."""
+    sliver: Bound = Bound(0.06, 0.015)
+    """The same for a polygon: a plank of 10:1 is one, a line drawn there and back is not."""
+    side_costs: tuple[float, ...] = (1.0, 1.15, 1.4, 1.8)
+    """Factor on the distance from the best triangle, quadrilateral, pentagon, hexagon: more sides
+    follow any outline more closely, a circle's distance falls as 1 / sides²; these leave a third of
+    that fall to be earned."""
+    polygonal: Bound = Bound(0.025, 0.005)
+    """Distance from the best polygon, rms. Bowed sides and rounded corners have 0.01; a circle has
+    0.031 from its best square."""
+    convex: Bound = Bound(0.06, 0.02)
+    """Share of a polygon's turning in the wrong sense, corners only: a dart (a chevron) has 0.15."""
+    simple: float = -2.5
+    """Logarithm of belief for each crossing of an outline with itself: stars, eights."""
+    wrong_way: Bound = Bound(0.16, 0.04)
+    """Share of an outline's turning in the wrong sense: a bean has 0.2, wobble 0.05."""
+    legs: Bound = Bound(4.5, 0.25)
+    """Legs of a spring. An M or a W has four and is a letter: five make two teeth and a half."""
+    uneven: Bound = Bound(0.5, 0.08)
+    """Spread of a spring's legs: a hand's teeth differ by a sixth, a brace's strokes by half."""
+    progress: Bound = Bound(0.6, 0.08)
+    """A spring's teeth lead onward; loops drawn in place wander back half of their way."""
+    tooth: Bound = Bound(0.2, 0.05)
+    """Height of a leg over its pitch: below it a wave on a wire, at 1 a tooth of 45°."""
+    apart: Bound = Bound(0.15, 0.03)
+    """Distance between a spring's ends: it goes from somewhere to somewhere else."""
+    straight: Bound = Bound(0.03, 0.006)
+    """Distance of a wire from its line, rms. A quarter circle has 0.09, a bracket (an arc of 60°)
+    0.04, a bowed or hooked line of a quick hand 0.015."""
+    hook: float = 0.08
+    """Share of the path at each end where a wire may hook."""
+    retraced: Bound = Bound(1.75, 0.12)
+    """A wire's path over its size: a third may be retraced twice, not the whole there and back."""
+    bow: Bound = Bound(0.09, 0.02)
+    """Distance of an arrow's shaft from its chord: a quarter circle has 0.09 and is still pointed."""
+    barb: Bound = Bound(0.06, 0.015)
+    """Reach of an arrow's head to either side, in shafts: barbs of a fifth of the shaft at 30° reach
+    0.1 on both sides, a check mark reaches to one side only."""
+    spread: Bound = Bound(0.5, 0.05)
+    """Reach to the greater side: a barb of half the shaft at 45° reaches 0.35; the second arm of an x
+    reaches 0.7 from the first."""
+    barbs_even: Bound = Bound(0.25, 0.06)
+    """Lesser over greater reach: the pen may have started the head at either barb, but has two."""
+    fallback: Bound = Bound(0.85, 0.06)
+    """How far the head falls back, in shafts: to the tail and beyond it is no head."""
+    barb_turn: Bound = Bound(radians(75), radians(8))
+    """The turn into the head: barbs come back at more than a right angle."""
+    head_ink: Bound = Bound(2.6, 0.25)
+    """Length of the head's path in shafts: four strokes of half a shaft, at most."""
+    otherwise: float = log(0.2)
+    """Mathematics is what answers to nothing else: it wins where every other kind is less believed
+    than this. One soft bound half missed (0.5) and another at 73 % still make a shape."""
+    never: float = -30.0
+    """What a kind gets that a stroke alone cannot be."""
+
+
+RULES = Rules()
+
+
+def evidence(path: FloatArray, rules: Rules = RULES) -> FloatArray:
+    """Logarithm of the belief in each of `STROKE_KINDS` for a unit path of at least two points, (9,).
+
+    Scribbles, lassos and taps depend on what else is on the page: they get `rules.never` here.
+    """
+    points = resample(path, rules.points)
+    outline = ring(points)
+    found = teeth(spaced(path))
+    beliefs: dict[StrokeKind, float] = {
+        "spring": spring_evidence(points, found, rules),
+        "wire": wire_evidence(points, found, rules),
+        "arrow": max(arrow_evidence(points, rules), arrow_evidence(points[::-1], rules)),
+        "math": rules.otherwise,
+    }
+    if outline is not None:
+        beliefs |= outline_evidence(outline, rules)
+    return np.array([max(beliefs.get(kind, rules.never), rules.never) for kind in STROKE_KINDS])
+
+
+def outline_evidence(outline: Ring, rules: Rules = RULES) -> dict[StrokeKind, float]:
+    """Beliefs in circle and polygon."""
+    closed = (
+        rules.gap.below(outline.gap)
+        + rules.loose.below(outline.loose)
+        + rules.simple * outline.crosses
+        + rules.wrong_way.below(outline.wrong_way)
+    )
+    if closed < rules.otherwise - 3:  # neither, whatever the sides: spare the search for them
+        return {"circle": closed, "polygon": closed}
+    sides, distance, wrong_way = best_polygon(outline, rules)
+    costly = distance * rules.side_costs[sides - 3]
+    ratio = log((outline.roundness * outline.radius + 1e-4) / (costly + 1e-4))
+    circle = (
+        rules.rounder.below(ratio) + rules.round.below(outline.roundness) + rules.thin.above(outline.aspect)
+    )
+    polygon = (
+        rules.rounder.above(ratio)
+        + rules.polygonal.below(distance)
+        + rules.convex.below(wrong_way)
+        + rules.sliver.above(outline.aspect)
+    )
+    return {"circle": closed + circle, "polygon": closed + polygon}
+
+
+def best_polygon(outline: Ring, rules: Rules = RULES) -> tuple[int, float, float]:
+    """Number of sides (3 to 6) of the polygon that follows the outline best for its cost, its rms
+    distance, and the share of its corners' turning in the wrong sense."""
+    legs = best_legs(outline.points, 2 + len(rules.side_costs))
+    distances = legs.rms[2:]
+    sides = 3 + int(np.argmin(distances * np.array(rules.side_costs)))
+    corners = outline.points[legs.breaks(sides)]
+    steps = np.diff(np.concatenate([corners, corners[1:2]]), axis=0)
+    cross = steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0]
+    turns = np.arctan2(cross, np.einsum("ij,ij->i", steps[:-1], steps[1:]))
+    wrong = -(np.sign(turns.sum()) * turns).clip(max=0.0).sum()
+    return sides, float(distances[sides - 3]), float(wrong / (np.abs(turns).sum() + 1e-9))
+
+
+def spring_evidence(points: FloatArray, found: Teeth, rules: Rules = RULES) -> float:
+    """Belief in a spring, whether of teeth, waves or coils."""
+    return (
+        rules.legs.above(found.legs)
+        + rules.uneven.below(found.uneven)
+        + rules.progress.above(found.progress)
+        + rules.tooth.above(found.height / max(found.pitch, 1e-6))
+        + rules.apart.above(float(np.hypot(*(points[-1] - points[0]))))
+    )
+
+
+def wire_evidence(points: FloatArray, found: Teeth, rules: Rules = RULES) -> float:
+    """Belief in a wire: straight, apart from a hook at either end."""
+    hooked = round(rules.hook * len(points))
+    deviation = min(rms_from_line(points), rms_from_line(points[hooked:-hooked]))
+    size = float(np.hypot(*(points.max(axis=0) - points.min(axis=0))))
+    small_teeth = rules.legs.below(found.legs) if found.height > 0.05 else 0.0
+    return rules.straight.below(deviation) + rules.retraced.below(path_length(points) / size) + small_teeth
+
+
+def arrow_evidence(points: FloatArray, rules: Rules = RULES) -> float:
+    """Belief in an arrow drawn from its tail."""
+    found = head(points)
+    if found is None:
+        return rules.never
+    return (
+        rules.bow.below(found.bow)
+        + rules.barb.above(found.narrower)
+        + rules.spread.below(found.wider)
+        + rules.barbs_even.above(found.narrower / max(found.wider, 1e-6))
+        + rules.fallback.below(found.fallback)
+        + rules.barb_turn.above(found.sharpest)
+        + rules.head_ink.below(found.ink)
+    )
+
+
+def rms_from_line(points: FloatArray) -> float:
+    """Root mean square distance of points (n, 2) from their best line."""
+    scatter = np.cov(points.T, bias=True)
+    half = 0.5 * (scatter[0, 0] + scatter[1, 1])
+    lesser = half - np.hypot(0.5 * (scatter[0, 0] - scatter[1, 1]), scatter[0, 1])
+    return float(np.sqrt(max(lesser, 0.0)))
+
+
+def _log_logistic(value: float) -> float:
+    """log(1 / (1 + e^−value)) without overflow."""
+    return -log1p(exp(-value)) if value > 0 else value - log1p(exp(value))
