@@ -1,0 +1,231 @@
+"""Formula text cut into tokens: plain typing, Unicode and LaTeX give the same tokens.
+
+Subscripts are part of a name and are read here; superscripts are grammar and are left to
+the parser. Positions count characters of the text from 0.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from sketch.formula.names import COMMANDS, FUNCTION_ALIASES, LETTERS, words
+
+TokenKind = Literal[
+    "number", "name", "function", "sqrt", "frac",
+    "+", "-", "*", "/", "^", "=", "(", ")", "[", "]", "{", "}", ",", "|", "‖", "end",
+]  # fmt: skip
+
+
+class FormulaError(ValueError):
+    """Text that is not a formula.
+
+    reason: one sentence that says what is wrong and what would be right; position: the index of the
+    character where it was noticed; text: the formula. `str` shows the place with a caret.
+    """
+
+    def __init__(self, reason: str, text: str, position: int) -> None:
+        self.reason = reason
+        self.text = text
+        self.position = position
+        super().__init__(f"{reason}\n{_excerpt(text, position)}")
+
+    def __reduce__(self) -> tuple[type[FormulaError], tuple[str, str, int]]:
+        return FormulaError, (self.reason, self.text, self.position)
+
+    @property
+    def sentence(self) -> str:
+        """The reason and the place in one line."""
+        return f"{self.reason} (at character {self.position + 1})"
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """value: digits of a number, canonical name of a name or function, else what was written."""
+
+    kind: TokenKind
+    value: str
+    start: int
+    end: int
+
+
+_SIGNS: dict[str, TokenKind] = {
+    **dict.fromkeys("+＋", "+"),
+    **dict.fromkeys("-−–", "-"),
+    **dict.fromkeys("*·×⋅∗", "*"),
+    **dict.fromkeys("/÷⁄", "/"),
+    **dict.fromkeys("|∣", "|"),
+    **dict.fromkeys("‖∥", "‖"),
+    "^": "^", "=": "=", "(": "(", ")": ")", "[": "[", "]": "]", "{": "{", "}": "}", ",": ",",
+    "√": "sqrt",
+}  # fmt: skip
+_COMMAND_SIGNS: dict[str, TokenKind] = {
+    "cdot": "*", "times": "*", "div": "/", "|": "‖", "Vert": "‖", "lVert": "‖", "rVert": "‖",
+    "vert": "|", "lvert": "|", "rvert": "|", "{": "(", "}": ")",
+    "frac": "frac", "dfrac": "frac", "tfrac": "frac", "sqrt": "sqrt",
+}  # fmt: skip
+_STYLES = frozenset(["vec", "mathbf", "boldsymbol", "mathrm", "mathit"])
+"""Commands that dress a name; whether it is a vector is for its meaning to say."""
+_BLANK_COMMANDS = frozenset([",", ";", ":", "!", " ", "quad", "qquad", "left", "right", "displaystyle"])
+_SUPERSCRIPTS = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ⁿ", "0123456789+-n", strict=True))
+_SUBSCRIPTS = dict(zip("₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", "0123456789aehijklmnoprstuvx", strict=True))
+_NOT_YET: dict[str, str] = {
+    **dict.fromkeys(("°", "degree", "circ"), "angles are in radians: write 30 degrees as pi/6"),
+    **dict.fromkeys(
+        ("'", "′", "dot", "ddot"), "derivatives are not read; give the quantity a name of its own"
+    ),
+    **dict.fromkeys(("<", ">", "≤", "≥", "≠", "≈", "le", "ge", "ne", "approx"), "only = relates two sides"),
+    "_": "a subscript belongs to a letter, as in f_1",
+    ".": "a point stands between digits, as in 9.81",
+}
+
+_BLANK = re.compile(r"[\s~\u200b]+")
+_NUMBER = re.compile(r"(?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+_RUN = re.compile(r"[A-Za-z]+")
+_COMMAND = re.compile(r"\\([A-Za-z]+|.)", re.DOTALL)
+_SUBSCRIPT_START = re.compile(r"\s*_\s*")
+_SUBSCRIPT_PLAIN = re.compile(r"[0-9]+|[A-Za-z][A-Za-z0-9]*")
+_GROUP = re.compile(r"\s*(?:\{(?:[^{}]|\{[^{}]*\})*\}|\\[A-Za-z]+|.)")
+_SUBSCRIPT_FONT = re.compile(r"\\(?:text|mathrm|mathit|rm)(?![A-Za-z])")
+_SUBSCRIPT_NOISE = re.compile(r"[\s{},]")
+_SUBSCRIPT_CANONICAL = re.compile(r"[A-Za-z0-9]+")
+
+
+def tokens(text: str) -> list[Token]:
+    """All tokens of a formula, an `end` last. Raises FormulaError at what belongs to no formula."""
+    found: list[Token] = []
+    at = 0
+    while at < len(text):
+        if blank := _BLANK.match(text, at):
+            at = blank.end()
+            continue
+        new = list(_tokens_at(text, at))
+        if new and new[-1].kind == "name":
+            new[-1] = _with_subscript(text, new[-1])
+        found.extend(new)
+        at = new[-1].end if new else _end_of_command(text, at)
+    return [*found, Token("end", "", len(text), len(text))]
+
+
+def _tokens_at(text: str, at: int) -> Iterator[Token]:
+    """What begins at `at`: one token, several for a run of letters, none for a blank command."""
+    sign = text[at]
+    if number := _NUMBER.match(text, at):
+        yield Token("number", number.group(), at, number.end())
+    elif run := _RUN.match(text, at):
+        for word in words(run.group()):
+            yield _word(word, at, at + len(word))
+            at += len(word)
+    elif sign == "\\":
+        yield from _command(text, at)
+    elif sign in LETTERS:
+        yield Token("name", LETTERS[sign], at, at + 1)
+    elif sign in _SUPERSCRIPTS:
+        yield from _superscript(text, at)
+    elif sign in _SIGNS:
+        yield Token(_SIGNS[sign], sign, at, at + 1)
+    else:
+        raise FormulaError(
+            _NOT_YET.get(sign, f"the character {sign!r} has no meaning in a formula"), text, at
+        )
+
+
+def _word(word: str, start: int, end: int) -> Token:
+    if word == "sqrt":
+        return Token("sqrt", word, start, end)
+    if word in FUNCTION_ALIASES:
+        return Token("function", FUNCTION_ALIASES[word], start, end)
+    return Token("name", word, start, end)
+
+
+def _command(text: str, at: int) -> Iterator[Token]:
+    match = _COMMAND.match(text, at)
+    if match is None:
+        raise FormulaError("a backslash begins a command, as in \\theta", text, at)
+    name, end = match.group(1), match.end()
+    if name in COMMANDS:
+        yield Token("name", COMMANDS[name], at, end)
+    elif name in FUNCTION_ALIASES:
+        yield Token("function", FUNCTION_ALIASES[name], at, end)
+    elif name in _COMMAND_SIGNS:
+        yield Token(_COMMAND_SIGNS[name], f"\\{name}", at, end)
+    elif name in _STYLES:
+        yield _styled(text, at, end)
+    elif name not in _BLANK_COMMANDS:
+        reason = _NOT_YET.get(
+            name,
+            f"the command \\{name} is not known; known are letters such as \\theta, functions such as \\cos, \\frac, \\sqrt",
+        )
+        raise FormulaError(reason, text, at)
+
+
+def _styled(text: str, at: int, end: int) -> Token:
+    """\\vec{F} is F."""
+    dressed = _GROUP.match(text, end)
+    inner = tokens(dressed.group().strip("{} ")) if dressed else []
+    if dressed is None or [token.kind for token in inner] != ["name", "end"]:
+        raise FormulaError(f"{text[at:end]} takes one letter, as in {text[at:end]}{{v}}", text, at)
+    return Token("name", inner[0].value, at, dressed.end())
+
+
+def _end_of_command(text: str, at: int) -> int:
+    match = _COMMAND.match(text, at)
+    return match.end() if match else len(text)
+
+
+def _superscript(text: str, at: int) -> Iterator[Token]:
+    """x⁻² is x^{-2}."""
+    end = at
+    while end < len(text) and text[end] in _SUPERSCRIPTS:
+        end += 1
+    written = "".join(_SUPERSCRIPTS[sign] for sign in text[at:end])
+    power = re.fullmatch(r"([+-]?)([0-9]+|n)", written)
+    if power is None:
+        raise FormulaError("a raised exponent is a whole number or n; write any other as ^(…)", text, at)
+    yield Token("^", "^", at, at)
+    yield Token("{", "{", at, at)
+    if power.group(1):
+        yield Token("-" if power.group(1) == "-" else "+", power.group(1), at, at)
+    yield Token("name" if power.group(2) == "n" else "number", power.group(2), at, end)
+    yield Token("}", "}", end, end)
+
+
+def _with_subscript(text: str, name: Token) -> Token:
+    end = name.end
+    while end < len(text) and text[end] in _SUBSCRIPTS:
+        end += 1
+    if end > name.end:
+        below = "".join(_SUBSCRIPTS[sign] for sign in text[name.end : end])
+    elif start := _SUBSCRIPT_START.match(text, end):
+        below, end = _subscript(text, start.end())
+    else:
+        return name
+    return Token("name", f"{name.value}_{below}", name.start, end)
+
+
+def _subscript(text: str, at: int) -> tuple[str, int]:
+    """The subscript that begins at `at`, canonical, and where it ends.
+
+    Without braces digits end at the first letter (v_0t is v_0·t), letters take what follows
+    (v_Ax is one name).
+    """
+    if plain := _SUBSCRIPT_PLAIN.match(text, at):
+        return plain.group(), plain.end()
+    if written := _GROUP.match(text, at):
+        below = _SUBSCRIPT_FONT.sub("", written.group())
+        below = _COMMAND.sub(lambda command: COMMANDS.get(command.group(1), command.group()), below)
+        below = _SUBSCRIPT_NOISE.sub("", below)
+        below = "".join(LETTERS.get(sign, sign) for sign in below)
+        if _SUBSCRIPT_CANONICAL.fullmatch(below):
+            return below, written.end()
+    raise FormulaError("a subscript is made of letters and digits, as in v_{Ax}", text, at)
+
+
+def _excerpt(text: str, position: int, reach: int = 30) -> str:
+    """The text around a position and a caret below it: two lines."""
+    first, last = max(0, position - reach), position + reach
+    head, tail = "…" if first > 0 else "", "…" if last < len(text) else ""
+    shown = "".join(sign if sign.isprintable() else " " for sign in text[first:last])
+    return f"  {head}{shown}{tail}\n  {' ' * (len(head) + position - first)}^"
