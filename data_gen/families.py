@@ -1,0 +1,345 @@
+"""What people draw when they mean a kind: random ideal paths for every kind of stroke.
+
+Each family maps a generator to one path, (n, 2), about one unit in size, y down. A family holds
+what differs from drawing to drawing (proportions, teeth, start and direction, closing); what
+differs from hand to hand is the writer's (`writers`, `pen`).
+
+What the kinds mean, where shapes shade into one another:
+- a spring has at least five legs (M and W have four) or at least three loops;
+- a scribble goes over its own ground: its legs advance by less than an eighth of their height;
+- a wire may bend a little and may run back on itself by up to a third;
+- a straight line, a ring or a triangle drawn alone is a component, though letters contain them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from data_gen import ideals
+from data_gen.glyphs import alphabet
+from sketch.geometry import closure, path_length
+from sketch.ink import FloatArray
+from sketch.page import STROKE_KINDS, StrokeKind
+
+Family = Callable[[np.random.Generator], FloatArray]
+
+
+@dataclass(frozen=True, slots=True)
+class FamilyRule:
+    """Shares and spreads of the families, judged by eye on what people draw."""
+
+    aspect: float = 0.28
+    """Standard deviation of log(width / height) of circles: most are a little oval, some slim."""
+    closing: float = 0.035
+    """Standard deviation of the closing error, fraction of the perimeter."""
+    tail: float = 0.2
+    """Share of closed shapes whose pen runs on straight past the closure."""
+    mid_side: float = 0.12
+    """Share of polygons begun in the middle of a side instead of at a corner."""
+    bend: float = 0.035
+    """Standard deviation of a side's sagitta, fraction of the side."""
+    zigzag: float = 0.62
+    """Share of springs drawn as zig-zags (rounded ones included), the rest are coils."""
+    backtrack: float = 0.08
+    """Share of wires whose end runs back on itself."""
+    mark: float = 0.38
+    """Share of mathematics that are other marks: braces, stars, checks, curls."""
+    word: float = 0.05
+    """Share of mathematics that are letters joined up to a word."""
+    straight: float = 0.93
+    """A stroke of a letter whose chord is more of its length than this is a wire when alone."""
+
+
+RULE = FamilyRule()
+
+
+def circle(rng: np.random.Generator) -> FloatArray:
+    """Round closed curves: ovals, eggs, slightly boxy or spiralling ones; often begun at the top."""
+    z = rng.standard_normal(8)
+    u = rng.random(6)
+    aspect = float(np.exp(RULE.aspect * z[0] * (1.8 if u[0] < 0.15 else 1.0)))
+    start = -np.pi / 2 + (0.5 * z[1] if u[1] < 0.6 else 2 * np.pi * u[2])
+    sweep = (2 * np.pi) * max(0.86, 1.0 + 0.01 + RULE.closing * z[2] + (0.15 * u[3] ** 2))
+    squareness = 2.0 + 0.35 * max(-0.8, z[3])
+    egg = float(np.clip(0.13 * z[4], -0.4, 0.4))
+    path = ideals.superellipse((0, 0), (0.5 * aspect**0.5, 0.5 / aspect**0.5), start, sweep, squareness, egg)
+    drift = 1.0 + 0.05 * z[5] * np.linspace(-0.5, 0.5, len(path))
+    return _with_tail(_directed(_turned(path * drift[:, None], np.pi * u[4]), u[5]), rng)
+
+
+def polygon(rng: np.random.Generator) -> FloatArray:
+    """Convex polygons of 3 to 8 corners, sides a little bent, closed within a few percent."""
+    u = rng.random(6)
+    corners = _convex_corners(rng, u[0])
+    start = float(int(u[1] * len(corners)))
+    if u[2] < RULE.mid_side:
+        start += 0.15 + 0.7 * u[3]
+    overlap = 0.004 + RULE.closing * 0.7 * float(rng.standard_normal())
+    path = _bent_sides(ideals.polygon(corners, start, max(-0.09, overlap)), rng)
+    return _with_tail(_directed(path, u[4]), rng)
+
+
+def spring(rng: np.random.Generator) -> FloatArray:
+    """Zig-zags of five legs or more and coils of three loops or more, at any angle, often with leads."""
+    u, z = rng.random(10), rng.standard_normal(4)
+    lead = 0.0 if u[0] < 0.5 else 0.03 + 0.17 * u[1]
+    angle = 0.25 * z[0] if u[2] < 0.6 else 2 * np.pi * u[3]
+    if u[4] < RULE.zigzag:
+        legs = 5 + int(9 * u[5] ** 2.2)
+        width = float(np.exp(np.log(0.14) + (np.log(0.95) - np.log(0.14)) * u[6])) * (6 / legs) ** 0.4
+        spacing = np.exp(0.18 * rng.standard_normal(legs))
+        # Saw teeth: every other leg nearly upright, or even leaning back.
+        spacing[int(2 * u[7]) :: 2] *= 1.0 if u[8] < 0.45 else 0.15 + 0.7 * u[9]
+        heights = np.exp(0.22 * rng.standard_normal(legs - 1))
+        peaks = ideals.zigzag((0, 0), (1, 0), legs, width, lead, spacing.tolist(), heights.tolist())
+        if lead == 0.0:
+            # Without leads the first and last legs start from the trough, not from the axis.
+            peaks[[0, -1], 1] -= np.array([1, 1 if legs % 2 == 0 else -1]) * width / 2
+        path = _rounded_peaks(peaks) if u[1] > 0.88 else peaks
+    else:
+        loops = 3 + int(6 * u[5] ** 1.5)
+        width = float(np.exp(np.log(0.12) + (np.log(0.7) - np.log(0.12)) * u[6]))
+        path = ideals.coil((0, 0), (1, 0), loops, width, lead, 0.25 + 0.45 * u[7])
+        path = path * np.array([1.0, 1.0 if u[8] < 0.5 else -1.0])
+        path = _uneven(path, rng, 0.12)
+    return _turned(path if u[9] < 0.7 else path[::-1], angle)
+
+
+def wire(rng: np.random.Generator) -> FloatArray:
+    """Nearly straight strokes at any angle: bent a little, sometimes with a run-back at the end."""
+    u, z = rng.random(5), rng.standard_normal(3)
+    along = np.linspace(0.0, 1.0, 24)
+    sag = 0.03 * z[0] * (2.0 if u[0] < 0.12 else 1.0)
+    skew = 0.02 * z[1]
+    path = np.column_stack([along, sag * 4 * along * (1 - along) + skew * np.sin(2 * np.pi * along)])
+    if u[1] < RULE.backtrack:
+        back = path[::-1][1 : 2 + int(8 * u[2])]
+        path = np.concatenate([path, back + np.array([0.0, 0.01 * z[2]])])
+    angle = (np.pi / 2) * int(4 * u[3]) + 0.1 * z[2] if u[4] < 0.6 else 2 * np.pi * u[3]
+    return _turned(path, angle)
+
+
+def arrow(rng: np.random.Generator) -> FloatArray:
+    """Arrows in one stroke: straight or bent shaft, head open or closed, its barbs uneven."""
+    u, z = rng.random(8), rng.standard_normal(6)
+    head = 0.12 + 0.4 * u[0]
+    opening = np.radians(18 + 38 * u[1])
+    points = ideals.arrow((0, 0), (1, 0), head, opening, closed=u[2] < 0.5)
+    points[2:-1] += 0.03 * rng.standard_normal((len(points) - 3, 2))
+    points[-1] += 0.03 * z[:2]
+    shaft = np.linspace(0.0, 1.0, 16)
+    bend = 0.02 * z[2] if u[3] < 0.75 else 0.18 * z[2]
+    bowed = np.column_stack([shaft, bend * 4 * shaft * (1 - shaft)])
+    if u[4] < 0.06:
+        bowed = np.array([[0.3, 0.6 + 0.5 * u[5]], [0.0, 0.0], [1.0, 0.0]])
+    path = np.concatenate([bowed, points[2:]])
+    if u[6] < 0.5:
+        path = path * np.array([1.0, -1.0])
+    return _turned(path, 2 * np.pi * u[7])
+
+
+def tap(rng: np.random.Generator) -> FloatArray:
+    """A dot: the pen comes down, hardly moves, and leaves. Its size is set in `strokes`."""
+    count = 1 + int(4 * rng.random() ** 1.5)
+    return np.cumsum(rng.standard_normal((count, 2)), axis=0) / max(1.0, count**0.5)
+
+
+def scribble(rng: np.random.Generator) -> FloatArray:
+    """Rubbing out: dense strokes to and fro, or small loops, over the same ground."""
+    u, z = rng.random(5), rng.standard_normal(2)
+    legs = 6 + int(16 * u[0])
+    if u[1] < 0.75:
+        advance = (0.015 + 0.095 * u[2]) * np.exp(0.5 * rng.standard_normal(legs + 1))
+        height = np.exp(0.15 * rng.standard_normal(legs + 1))
+        side = np.where(np.arange(legs + 1) % 2 == 0, 0.5, -0.5)
+        path = np.column_stack([np.cumsum(advance), side * height + 0.05 * rng.standard_normal(legs + 1)])
+        path = _rounded_peaks(path) if u[3] < 0.4 else path
+    else:
+        phase = np.linspace(0.0, 2 * np.pi * (4 + 5 * u[0]), 160)
+        swell = 1.0 + 0.15 * np.sin(0.37 * phase + z[0])
+        path = np.column_stack([0.04 * phase / np.pi + 0.5 * swell * np.cos(phase), 0.4 * swell * np.sin(phase)])
+    return _turned(path, 2 * np.pi * u[4])
+
+
+def lasso(rng: np.random.Generator) -> FloatArray:
+    """A loose loop thrown around things: closed or nearly, lobed, longer than high."""
+    u = rng.random(4)
+    angle = np.linspace(0.0, 2 * np.pi * (0.93 + 0.17 * u[0]), 72)
+    order = np.arange(2, 6)
+    lobes = rng.standard_normal((2, len(order))) * 0.16 / order**0.8
+    radius = 1.0 + lobes[0] @ np.cos(np.outer(order, angle)) + lobes[1] @ np.sin(np.outer(order, angle))
+    path = 0.5 * np.maximum(radius, 0.3)[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+    stretched = path * np.array([1.0, float(np.exp(-0.9 * u[1]))])
+    return _directed(_turned(stretched, 0.2 * float(rng.standard_normal())), u[2])
+
+
+def mathematics(rng: np.random.Generator) -> FloatArray:
+    """One stroke of a letter, digit, sign or other mark that is no component when it stands alone."""
+    u = float(rng.random())
+    if u < RULE.word:
+        path = _word(rng)
+    else:
+        path = _pick(_lone_strokes("marks" if u < RULE.word + RULE.mark else "symbols"), rng)
+    size = float(np.max(path.max(axis=0) - path.min(axis=0)))
+    z = rng.standard_normal(6)
+    scaled = (path - path.mean(axis=0)) / size * np.exp(0.5 * 0.22 * z[0] * np.array([1.0, -1.0]))
+    reach = 0.02 * rng.standard_normal((2, 2))
+    ramp = np.linspace(0.0, 1.0, len(scaled))[:, None]
+    return _turned(scaled + (1 - ramp) ** 3 * reach[0] + ramp**3 * reach[1], 0.13 * z[1])
+
+
+def letter_part(rng: np.random.Generator) -> FloatArray:
+    """Any stroke of any symbol of mathematics, bars, rings and dots included: what stands in a formula."""
+    return _turned(_pick(_lone_strokes("all"), rng) / 10, 0.1 * float(rng.standard_normal()))
+
+
+FAMILIES: dict[StrokeKind, Family] = {
+    "circle": circle,
+    "polygon": polygon,
+    "spring": spring,
+    "wire": wire,
+    "arrow": arrow,
+    "tap": tap,
+    "scribble": scribble,
+    "lasso": lasso,
+    "math": mathematics,
+}
+assert tuple(FAMILIES) == STROKE_KINDS
+
+_POOLS: dict[str, list[list[FloatArray]]] = {}
+
+
+def _lone_strokes(pool: str) -> list[list[FloatArray]]:
+    """For each symbol of a pool its strokes that are mathematics even without company."""
+    if pool not in _POOLS:
+        names = alphabet.marks() if pool == "marks" else alphabet.symbols()
+        found = [
+            [
+                stroke
+                for variant in range(alphabet.variants(name))
+                for stroke in alphabet.strokes(name, variant)
+                if pool == "all" or not _component_like(name, stroke)
+            ]
+            for name in names
+        ]
+        _POOLS[pool] = [strokes for strokes in found if strokes]
+    return _POOLS[pool]
+
+
+RING_OR_TRIANGLE = frozenset({"0", "o", "O", r"\Delta", ".", r"\cdot", r"\ldots"})
+"""Symbols that are a circle, a polygon or a tap when they stand alone."""
+
+
+def _component_like(name: str, stroke: FloatArray) -> bool:
+    small = path_length(stroke) < 2.5
+    ring = name in {r"\theta", r"\phi", "Q"} and closure(stroke) < 0.1
+    return name in RING_OR_TRIANGLE or small or ring or closure(stroke) > RULE.straight
+
+
+def _pick(pool: list[list[FloatArray]], rng: np.random.Generator) -> FloatArray:
+    one, other = rng.random(2).tolist()
+    ways = pool[int(one * len(pool))]
+    return ways[int(other * len(ways))]
+
+
+def _word(rng: np.random.Generator) -> FloatArray:
+    """Two to five letters of one stroke each, joined."""
+    count = 2 + int(4 * float(rng.random()))
+    pieces: list[FloatArray] = []
+    x = 0.0
+    for _ in range(count):
+        stroke = _pick(_lone_strokes("symbols"), rng)
+        low, high = stroke.min(axis=0), stroke.max(axis=0)
+        pieces.append(stroke + np.array([x - low[0], 0.0]))
+        x += float(high[0] - low[0]) + 1.5
+    return np.concatenate(pieces)
+
+
+def _convex_corners(rng: np.random.Generator, which: float) -> FloatArray:
+    """Corners of a triangle, rectangle, rhombus, parallelogram or general convex polygon, one unit large."""
+    u, z = rng.random(6), rng.standard_normal(16)
+    if which < 0.36:
+        # Triangles: upright isosceles, right-angled or any whose smallest angle stays above 15 degrees.
+        apex = np.array([0.5 + 0.25 * z[0], -np.exp(-0.15 + 0.4 * z[1])])
+        if u[0] < 0.3:
+            apex[0] = 0.0 if u[1] < 0.5 else 1.0
+        corners = np.array([[0.0, 0.0], [1.0, 0.0], apex])
+        angle = 0.08 * z[2] if u[2] < 0.65 else 2 * np.pi * u[3]
+    elif which < 0.84:
+        aspect = float(np.exp(0.5 * z[0]))
+        half = 0.5 * np.array([aspect**0.5, aspect**-0.5])
+        corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * half
+        if which > 0.78:
+            corners = corners + np.array([[0.3 * z[1], 0], [0.3 * z[1], 0], [0, 0], [0, 0]]) * half
+        diamond = 0.70 < which < 0.78
+        angle = (np.pi / 4 if diamond else 0.0) + (0.06 * z[2] if u[2] < 0.8 else 2 * np.pi * u[3])
+        if diamond:
+            corners = corners / half * 0.4
+    else:
+        count = 4 + int(5 * u[0])
+        gaps = 0.55 + rng.random(count)
+        around = np.cumsum(gaps) / gaps.sum() * 2 * np.pi
+        corners = 0.5 * np.column_stack([np.cos(around), np.sin(around)])
+        angle = 2 * np.pi * u[3]
+    jitter = 0.022 * rng.standard_normal(corners.shape)
+    squeeze = np.array([1.0, float(np.exp(0.15 * z[3]))])
+    return _turned(corners + jitter, angle) * squeeze
+
+
+def _bent_sides(path: FloatArray, rng: np.random.Generator) -> FloatArray:
+    """Each straight side as a shallow arc of its own."""
+    steps = np.linspace(0.0, 1.0, 10)[:-1]
+    begin, along = path[:-1], np.diff(path, axis=0)
+    across = np.column_stack([-along[:, 1], along[:, 0]])
+    sag = RULE.bend * rng.standard_normal(len(along))
+    bulge = 4 * steps * (1 - steps)
+    sides = (
+        begin[:, None]
+        + steps[None, :, None] * along[:, None]
+        + (sag[:, None] * bulge)[..., None] * across[:, None]
+    )
+    return np.concatenate([sides.reshape(-1, 2), path[-1:]])
+
+
+def _with_tail(path: FloatArray, rng: np.random.Generator) -> FloatArray:
+    """Now and then the pen runs on past the closure, straight along where it was going."""
+    u, length, veer = rng.random(3).tolist()
+    if u >= RULE.tail:
+        return path
+    heading = path[-1] - path[-3]
+    norm = float(np.linalg.norm(heading))
+    if norm == 0:
+        return path
+    step = _turned((heading / norm)[None] * (0.03 + 0.22 * length**1.5), 0.9 * (veer - 0.5))
+    return np.concatenate([path, path[-1:] + step])
+
+
+def _rounded_peaks(peaks: FloatArray) -> FloatArray:
+    """A wave through the same peaks: half a cosine between neighbours."""
+    steps = np.linspace(0.0, 1.0, 9)[:-1]
+    ease = (1 - np.cos(np.pi * steps)) / 2
+    x = peaks[:-1, None, 0] + steps * np.diff(peaks[:, 0])[:, None]
+    y = peaks[:-1, None, 1] + ease * np.diff(peaks[:, 1])[:, None]
+    return np.concatenate([np.column_stack([x.ravel(), y.ravel()]), peaks[-1:]])
+
+
+def _uneven(path: FloatArray, rng: np.random.Generator, amount: float) -> FloatArray:
+    """Loops of varying height and pitch: a slow random swell across and along the axis."""
+    x = np.linspace(0.0, 1.0, len(path))
+    order = np.arange(1, 5)
+    waves = rng.standard_normal((2, len(order))) @ np.sin(np.pi * np.outer(order, x))
+    swell = np.exp(amount * waves[0])
+    return np.column_stack([path[:, 0] + 0.15 * amount * waves[1], path[:, 1] * swell])
+
+
+def _directed(path: FloatArray, u: float) -> FloatArray:
+    """Mirrored half of the time, so that both drawing senses occur."""
+    return path if u < 0.5 else path * np.array([-1.0, 1.0])
+
+
+def _turned(path: FloatArray, angle: float) -> FloatArray:
+    cos, sin = np.cos(angle), np.sin(angle)
+    return path @ np.array([[cos, sin], [-sin, cos]])
