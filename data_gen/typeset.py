@@ -30,7 +30,7 @@ class Proportions:
     """Height of fraction bars, minus signs and the middle of `=` and `+` above the baseline."""
     gap: float = 0.14
     """Between letters of a product."""
-    space: float = 0.3
+    space: float = 0.38
     """Around `=`, `+` and `−`."""
     script: float = 0.65
     sub_drop: float = 0.28
@@ -267,7 +267,7 @@ def _bracketed(sign: str, inner: Written, by: Hand) -> Written:
         _fitted(_symbol(mark), by, top, bottom, width=None if mark in "|‖" else 0.22)
         for mark in (sign, _CLOSING[sign])
     ]
-    return _row_of([marks[0], inner, marks[1]], [0.0, 0.6 * PROPORTIONS.gap, 0.6 * PROPORTIONS.gap])
+    return _row_of([marks[0], inner, marks[1]], [0.0, PROPORTIONS.gap, PROPORTIONS.gap])
 
 
 _ALIKE = {"0": "O", "‖": "\\Vert"}
