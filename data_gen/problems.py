@@ -48,6 +48,8 @@ ANSWERS: dict[str, tuple[str, ...]] = {
 }
 """For each diagram the answers that a page can bear, the right one first."""
 
+_LABELS = tuple(labels()[:26])
+
 
 def problem(name: str, answer: str, rng: np.random.Generator) -> Problem:
     """The diagram `name` of `PROBLEMS` with one of its `ANSWERS`, sized and placed by `rng`.
@@ -72,7 +74,7 @@ def _in_reading_order(drawn: Problem) -> Problem:
         return None if end is None else letter[end]
 
     ordered = sorted(drawn.components, key=place)
-    letter = {part.label: label for part, label in zip(ordered, labels(), strict=False)}
+    letter = {part.label: label for part, label in zip(ordered, _LABELS, strict=False)}
     return replace(
         drawn,
         components=tuple(

@@ -1,0 +1,155 @@
+"""How a person divides a shape into strokes, and where those begin and end.
+
+Frame: page units, y down. A shape of the truth becomes one or several meant paths, (n, 2) each;
+the waver of the hand comes after (`data_gen.pen`). What goes wrong here is what a person gets
+wrong on purpose or by haste: the closing of a loop, the corners, the ends of a wire that stop short
+of the block or run into it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import assert_never
+
+import numpy as np
+
+from data_gen import ideals
+from data_gen.writers import Writer
+from sketch.geometry import centroid, diagonal, path_length, signed_distance
+from sketch.ink import FloatArray
+from sketch.shapes import Arrow, Circle, Point, Polygon, Shape, Solid, Spring, Wire, outline
+
+
+@dataclass(frozen=True, slots=True)
+class DrawingRule:
+    """How far drawings stray from what is meant."""
+
+    oval: float = 0.05
+    """Standard deviation of log(width / height) of a circle."""
+    shifted: float = 0.02
+    """Standard deviation of a circle's centre, fraction of its diameter."""
+    corner: float = 0.012
+    """Standard deviation of a polygon's corners, fraction of its diagonal."""
+    corner_most: float = 5.0
+    """The same at most, page units: an eye guides the pen on long sides too."""
+    closing: float = 0.012
+    """Standard deviation of the closing error about the writer's mean, fraction of the perimeter."""
+    closing_most: float = 12.0
+    """Closing errors are never larger than this, page units."""
+    end: float = 3.0
+    """Standard deviation of a link's end along its axis, page units: short of the boundary or past it."""
+    aside: float = 1.5
+    """The same across its axis."""
+    end_most: float = 7.0
+    """Ends are never further off than this, page units."""
+    zigzag_uneven: float = 0.12
+    """Standard deviation of the logarithm of a tooth's size and advance."""
+    upright: float = 0.75
+    """Share of loops begun near the top (circles) or at the top left (polygons)."""
+    mid_side: float = 0.08
+    """Share of polygons begun in the middle of a side."""
+    tap: float = 1.2
+    """How far the pen slides in a tap, page units."""
+
+
+RULE = DrawingRule()
+
+
+def paths(shape: Shape, writer: Writer, rng: np.random.Generator) -> list[FloatArray]:
+    """The strokes that the writer means for the shape, in drawing order."""
+    match shape:
+        case Circle():
+            return [_circle(shape, writer, rng)]
+        case Polygon():
+            return _polygon(shape, writer, rng)
+        case Spring():
+            return [_spring(shape, writer, rng)]
+        case Wire():
+            start, end = _loose_ends(shape, rng)
+            return [ideals.line(*_either_way(start, end, rng))]
+        case Arrow(start, end):
+            length = float(np.linalg.norm(np.subtract(end, start)))
+            return [ideals.arrow(start, end, head=0.2 * length, opening=float(rng.uniform(0.4, 0.7)))]
+        case _:
+            assert_never(shape)
+
+
+def tap(shape: Solid, rng: np.random.Generator) -> FloatArray:
+    """A dot inside a solid, near its middle: the pen comes down, hardly slides, and leaves."""
+    middle = np.asarray(shape.centre) if isinstance(shape, Circle) else centroid(shape.vertices)
+    room = max(0.0, -signed_distance(shape, (float(middle[0]), float(middle[1]))) - 4 * RULE.tap)
+    spot = middle + 0.5 * room * rng.uniform(-1, 1, 2) / np.sqrt(2)
+    return spot + RULE.tap * np.cumsum(rng.standard_normal((int(rng.integers(1, 4)), 2)), axis=0) / 2
+
+
+def _closing(perimeter: float, writer: Writer, rng: np.random.Generator) -> float:
+    """How far past its beginning a loop ends, fraction of its perimeter; negative: it stays open."""
+    most = RULE.closing_most / perimeter
+    return float(np.clip(writer.gap + RULE.closing * rng.standard_normal(), -most, most))
+
+
+def _circle(shape: Circle, writer: Writer, rng: np.random.Generator) -> FloatArray:
+    oval = float(np.exp(0.5 * RULE.oval * rng.standard_normal()))
+    centre = np.asarray(shape.centre) + 2 * RULE.shifted * shape.radius * rng.standard_normal(2)
+    start = -np.pi / 2 + 0.4 * rng.standard_normal()
+    if rng.random() >= RULE.upright:
+        start = rng.uniform(-np.pi, np.pi)
+    # Anti-clockwise to the eye is the school's way round; every third circle goes the other.
+    way = -1.0 if rng.random() < 2 / 3 else 1.0
+    sweep = way * 2 * np.pi * (1 + _closing(2 * np.pi * shape.radius, writer, rng))
+    radii = (shape.radius * oval, shape.radius / oval)
+    return ideals.superellipse((float(centre[0]), float(centre[1])), radii, float(start), sweep)
+
+
+def _polygon(shape: Polygon, writer: Writer, rng: np.random.Generator) -> list[FloatArray]:
+    count = len(shape.vertices)
+    stray = min(RULE.corner * diagonal(shape.vertices), RULE.corner_most)
+    corners = shape.vertices + stray * rng.standard_normal((count, 2))
+    if rng.random() < 0.5:
+        corners = corners[::-1]
+    first = int(np.argmin(corners.sum(axis=1))) if rng.random() < RULE.upright else int(rng.integers(count))
+    corners = np.roll(corners, -first, axis=0)
+    if rng.random() >= writer.pieces:
+        perimeter = path_length(outline(shape))
+        start = float(rng.uniform(0.2, 0.8)) if rng.random() < RULE.mid_side else 0.0
+        return [ideals.polygon(corners, start, _closing(perimeter, writer, rng))]
+    # Pen lifts at some corners: 2 strokes up to one for each side.
+    lifts = int(rng.integers(2, count + 1))
+    breaks = [0, *sorted(rng.choice(np.arange(1, count), lifts - 1, replace=False).tolist()), count]
+    loop = np.concatenate([corners, corners[:1]])
+    return [_with_loose_ends(loop[a : b + 1], stray, rng) for a, b in pairwise(breaks)]
+
+
+def _with_loose_ends(path: FloatArray, stray: float, rng: np.random.Generator) -> FloatArray:
+    """A stroke of a polygon drawn in pieces: its ends miss the corners a little; any direction."""
+    moved = path.copy()
+    moved[[0, -1]] += stray * rng.standard_normal((2, 2))
+    return moved if rng.random() < 0.7 else moved[::-1]
+
+
+def _spring(shape: Spring, writer: Writer, rng: np.random.Generator) -> FloatArray:
+    start, end = _either_way(*_loose_ends(shape, rng), rng)
+    lead = float(rng.uniform(0.06, 0.18))
+    if rng.random() >= writer.zigzag:
+        return ideals.coil(start, end, shape.coils, shape.width, lead, float(rng.uniform(0.3, 0.55)))
+    legs = 2 * max(2, round(shape.coils))
+    spacing = np.exp(RULE.zigzag_uneven * rng.standard_normal(legs))
+    heights = np.exp(RULE.zigzag_uneven * rng.standard_normal(legs - 1))
+    return ideals.zigzag(start, end, legs, shape.width, lead, spacing.tolist(), heights.tolist())
+
+
+def _loose_ends(link: Spring | Wire, rng: np.random.Generator) -> tuple[Point, Point]:
+    """Where the pen really means to begin and end: near the boundaries, not on them."""
+    start, end = np.asarray(link.start), np.asarray(link.end)
+    along = (end - start) / np.linalg.norm(end - start)
+    frame = np.array([along, [-along[1], along[0]]])
+    stray = rng.standard_normal((2, 2)) * [RULE.end, RULE.aside]
+    stray = np.clip(stray, -RULE.end_most, RULE.end_most) @ frame
+    start, end = start + stray[0], end + stray[1]
+    return (float(start[0]), float(start[1])), (float(end[0]), float(end[1]))
+
+
+def _either_way(start: Point, end: Point, rng: np.random.Generator) -> tuple[Point, Point]:
+    """Two of three are drawn from the start on, as the eye goes: downwards or to the right."""
+    return (start, end) if rng.random() < 2 / 3 else (end, start)
