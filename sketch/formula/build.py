@@ -23,6 +23,8 @@ class Unbuildable(ValueError):
 class BuildLimits:
     bits: int = 1024
     """Largest numerator or denominator: beyond it no float64 holds the number."""
+    logarithm_bits: int = 10
+    """The same for numbers beside a logarithm inside exp: SymPy turns exp(n·ln 3) into 3ⁿ in a product."""
     root: int = 64
     """Highest root of a number; SymPy factors a number to take its root."""
 
@@ -37,7 +39,7 @@ def add(terms: Sequence[Basic]) -> Basic:
     scalars = [term for term in terms if isinstance(term, sympy.Expr)]
     vectors = [term for term in terms if isinstance(term, sympy.Tuple)]
     if not vectors:
-        return _within_limits(sympy.Add(*scalars))
+        return _settled(sympy.Add(*scalars))
     if scalars:
         raise Unbuildable("a vector and a scalar cannot be added; give both the same number of components")
     if len({len(vector) for vector in vectors}) > 1:
@@ -50,7 +52,7 @@ def multiply(factors: Sequence[Basic]) -> Basic:
     scalars = [factor for factor in factors if isinstance(factor, sympy.Expr)]
     vectors = [factor for factor in factors if isinstance(factor, sympy.Tuple)]
     if not vectors:
-        return _within_limits(sympy.Mul(*scalars))
+        return _settled(sympy.Mul(*scalars))
     if len(vectors) > 1:
         raise Unbuildable("two vectors cannot be multiplied; write the product of their components")
     return sympy.Tuple(*(multiply([*scalars, component]) for component in vectors[0]))
@@ -78,7 +80,7 @@ def power(base: Basic, exponent: Basic) -> Basic:
     result = sympy.Pow(base, exponent)
     if base.is_number and result.has(*_NOT_REAL):
         raise Unbuildable("the power is no real number")
-    return _within_limits(result)
+    return _settled(result)
 
 
 def call(name: str, argument: Basic) -> Basic:
@@ -90,7 +92,18 @@ def call(name: str, argument: Basic) -> Basic:
         if name not in ("abs", "norm"):
             raise Unbuildable(f"{name} takes a scalar, not a vector")
         name = "norm"
+    if name == "exp":
+        return _exponential(argument)
     return FUNCTIONS[name](argument, evaluate=False)
+
+
+def _exponential(argument: Basic) -> Basic:
+    """e^argument; e^0 and e^1 are what SymPy makes of them inside a product."""
+    if argument == 0 or argument == 1:
+        return sympy.exp(argument)
+    if argument.has(sympy.log) and _bits(argument) > LIMITS.logarithm_bits:
+        raise Unbuildable("an exponential of a logarithm with so large a number; write it as a power")
+    return sympy.exp(argument, evaluate=False)
 
 
 def _bits(tree: Basic) -> int:
@@ -100,7 +113,11 @@ def _bits(tree: Basic) -> int:
     return max((height.bit_length() for height in heights if height > 1), default=0)
 
 
-def _within_limits(tree: Basic) -> Basic:
+def _settled(tree: Basic) -> Basic:
+    """The tree as SymPy leaves it: one pass may leave π·a·a² where the next makes it π·a³."""
     if _bits(tree) > LIMITS.bits:
         raise Unbuildable(f"a number is too large; at most {LIMITS.bits} bits are held")
+    if isinstance(tree, sympy.Add | sympy.Mul):
+        again = tree.func(*tree.args)
+        return tree if again == tree else _settled(again)
     return tree

@@ -184,12 +184,12 @@ def _superscript(text: str, at: int) -> Iterator[Token]:
     power = re.fullmatch(r"([+-]?)([0-9]+|n)", written)
     if power is None:
         raise FormulaError("a raised exponent is a whole number or n; write any other as ^(…)", text, at)
-    yield Token("^", "^", at, at)
-    yield Token("{", "{", at, at)
+    yield Token("^", "^", at, end)
+    yield Token("{", "{", at, end)
     if power.group(1):
-        yield Token("-" if power.group(1) == "-" else "+", power.group(1), at, at)
+        yield Token("-" if power.group(1) == "-" else "+", power.group(1), at, end)
     yield Token("name" if power.group(2) == "n" else "number", power.group(2), at, end)
-    yield Token("}", "}", end, end)
+    yield Token("}", "}", at, end)
 
 
 def _with_subscript(text: str, name: Token) -> Token:

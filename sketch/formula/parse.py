@@ -44,8 +44,8 @@ class ParseLimits:
     """Length of a formula; the longest of 1,979 handwritten ones has 255."""
     nesting: int = 32
     """Brackets, powers and functions within one another; keeps far from Python's recursion limit."""
-    digits: int = 40
-    """Digits of one number, twice what float64 tells apart."""
+    digits: int = 320
+    """Characters of one number: as many as float64's largest has."""
 
 
 LIMITS = ParseLimits()

@@ -143,6 +143,9 @@ def test_a_refusal_points_with_a_caret() -> None:
         "\\" * 999,
         "(1,2)+" * 160 + "(1,2)",
         "|a+b|*" * 160 + "1",
+        "exp(999999999 ln 3) exp(x)",
+        "exp(ln 3)^999999999 exp(x)",
+        "exp(999 ln 3)^999",
     ],
     ids=lambda text: f"{text[:12]}… {len(text)}",
 )

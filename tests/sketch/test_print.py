@@ -1,0 +1,56 @@
+"""Writing a formula and reading it back gives the same tree."""
+
+from __future__ import annotations
+
+import pytest
+import sympy
+from hypothesis import assume, given, settings
+from strategies import trees
+from sympy.core.basic import Basic
+
+from sketch.formula.parse import LIMITS, parse
+from sketch.formula.print import latex, plain
+
+
+@settings(max_examples=300, deadline=None)
+@given(trees)
+def test_parse_is_inverse_to_plain(tree: Basic) -> None:
+    text = plain(tree)
+    assume(len(text) <= LIMITS.characters)
+    assert parse(text) == tree
+    assert text.isascii()
+
+
+@settings(max_examples=300, deadline=None)
+@given(trees)
+def test_parse_is_inverse_to_latex(tree: Basic) -> None:
+    text = latex(tree)
+    assume(len(text) <= LIMITS.characters)
+    assert parse(text) == tree
+
+
+@pytest.mark.parametrize(
+    ("text", "typed", "typeset"),
+    [
+        ("f_1 = |W| cos(theta)", "f_1 = |W|*cos(theta)", r"f_{1} = \left|W\right| \cos\left(\theta\right)"),
+        ("theta = pi/6", "theta = pi/6", r"\theta = \frac{\pi}{6}"),
+        ("T_1 = 5 sqrt(2)", "T_1 = 5*sqrt(2)", r"T_{1} = 5 \sqrt{2}"),
+        ("y = 3t - 1/2 g t^2", "y = 3*t - g*t^2/2", r"y = 3 t - \frac{g t^{2}}{2}"),
+        ("F = -G M m / r^2", "F = -G*M*m/r^2", r"F = -\frac{G M m}{r^{2}}"),
+        ("f = (0, 5)", "f = (0, 5)", r"f = \left(0, 5\right)"),
+        ("g = 9.81", "g = 9.81", "g = 9.81"),
+        ("x = 1/8", "x = 1/8", r"x = \frac{1}{8}"),
+        ("||a|-b|^2".replace("||a|-b|", "abs(|a|-b)"), "abs(|a| - b)^2", r"\abs\left(\left|a\right| - b\right)^{2}"),
+        ("(e)^2 e^t", "(e)^2*exp(t)", r"\left(e\right)^{2} \exp\left(t\right)"),
+    ],
+)  # fmt: skip
+def test_formulas_look_as_a_person_writes_them(text: str, typed: str, typeset: str) -> None:
+    assert plain(parse(text)) == typed
+    assert latex(parse(text)) == typeset
+
+
+def test_what_is_no_formula_is_not_written() -> None:
+    with pytest.raises(ValueError, match="not part of the formula language"):
+        plain(sympy.Matrix([[1]]))
+    with pytest.raises(ValueError, match="not part of the formula language"):
+        latex(sympy.zoo)
