@@ -33,6 +33,8 @@ class DrawingRule:
     """Standard deviation of a polygon's corners, fraction of its diagonal."""
     corner_most: float = 5.0
     """The same at most, page units: an eye guides the pen on long sides too."""
+    joint: float = 0.03
+    """Standard deviation of a piece's end from its corner at most, fraction of the piece's length."""
     closing: float = 0.012
     """Standard deviation of the closing error about the writer's mean, fraction of the perimeter."""
     closing_most: float = 12.0
@@ -124,7 +126,7 @@ def _polygon(shape: Polygon, writer: Writer, rng: np.random.Generator) -> list[F
 def _with_loose_ends(path: FloatArray, stray: float, rng: np.random.Generator) -> FloatArray:
     """A stroke of a polygon drawn in pieces: its ends miss the corners a little; any direction."""
     moved = path.copy()
-    moved[[0, -1]] += stray * rng.standard_normal((2, 2))
+    moved[[0, -1]] += min(stray, RULE.joint * path_length(path)) * rng.standard_normal((2, 2))
     return moved if rng.random() < 0.7 else moved[::-1]
 
 

@@ -32,8 +32,9 @@ class Sheet:
     """Between a line and the page's edge."""
     clear: float = 14.0
     """Between a line and the ink of a shape."""
-    between: float = 24.0
-    """Between two lines: more than within one, so that a reader can part them."""
+    between: tuple[float, float] = (1.6, 0.7)
+    """Between two lines side by side and above one another, in letter heights: more than within one
+    line, so that a reader can part them."""
     step: float = 12.0
     """Spacing of the places that are tried."""
     whim: float = 30.0
@@ -49,55 +50,63 @@ def place(
     sizes: Sequence[Size],
     wishes: Sequence[Point | None],
     components: Sequence[Component],
+    letter: float,
     rng: np.random.Generator,
 ) -> list[Point]:
     """The centre of each line: free of all shapes and of the lines before it.
 
-    sizes: of each line; wishes: the spot it would stand at, None for a corner of the page. A line
-    that finds no room is put below everything, where the page grows.
+    sizes: of each line; wishes: the spot it would stand at, None for a corner of the page; letter:
+    height of a capital, page units. A line that finds no room is put below everything, where the page grows.
     """
     outlines = np.concatenate([_outline(component.shape) for component in components])
+    between = (SHEET.between[0] * letter, SHEET.between[1] * letter)
     taken: list[tuple[Point, Size]] = []
     for size, wish in zip(sizes, wishes, strict=True):
-        grid = _grid(size)
+        columns, rows = _lattice(size)
+        grid = np.stack(np.meshgrid(columns, rows), axis=-1).reshape(-1, 2)
         corner = rng.integers(2, size=2) * [SHEET.width, SHEET.height]
         target = corner if wish is None else np.asarray(wish)
-        free = _clear_of_ink(grid, size, outlines)
+        free = _clear_of_ink(columns, rows, size, outlines)
         for component in components:
             free &= ~_inside(component.shape, grid)
         for centre, other in taken:
-            free &= _apart(grid, size, centre, other)
+            free &= _apart(grid, size, centre, other, between)
         cost = np.linalg.norm(grid - target, axis=1) + rng.exponential(SHEET.whim, len(grid))
         cost[~free] = np.inf
         best = int(np.argmin(cost))
         if np.isfinite(cost[best]):
-            at = grid[best] + rng.uniform(-0.4, 0.4, 2) * SHEET.step
+            at = grid[best] + rng.uniform(-0.2, 0.2, 2) * SHEET.step
         else:
             floor = max([float(outlines[:, 1].max()), *(y + h / 2 for (_, y), (_, h) in taken)])
-            at = np.array([SHEET.width / 2, floor + SHEET.between + size[1] / 2])
+            at = np.array([SHEET.width / 2, floor + between[1] + SHEET.step + size[1] / 2])
         taken.append(((float(at[0]), float(at[1])), size))
     return [centre for centre, _ in taken]
 
 
-def _grid(size: Size) -> FloatArray:
-    """Every place where a line of this size lies on the page, (n, 2); at least the page's middle."""
+def _lattice(size: Size) -> tuple[FloatArray, FloatArray]:
+    """Columns and rows at whose crossings a line of this size lies on the page; at least one of each."""
     columns, rows = (
-        np.arange(extent / 2 + SHEET.margin, whole - extent / 2 - SHEET.margin + 1e-9, SHEET.step)
-        for extent, whole in zip(size, (SHEET.width, SHEET.height), strict=True)
+        np.arange(first, max(whole - first, first + SHEET.step), SHEET.step)
+        for first, whole in (
+            (size[0] / 2 + SHEET.margin, SHEET.width),
+            (size[1] / 2 + SHEET.margin, SHEET.height),
+        )
     )
-    grid = np.stack(np.meshgrid(columns, rows), axis=-1).reshape(-1, 2)
-    return grid if len(grid) else np.array([[SHEET.width / 2, SHEET.height / 2]])
+    return columns, rows
 
 
-def _clear_of_ink(grid: FloatArray, size: Size, ink: FloatArray) -> NDArray[np.bool_]:
-    """Whether no point of the outlines lies in the line's rectangle or too near to it."""
-    reach = np.asarray(size) / 2 + SHEET.clear + SHEET.step / 2
-    x = np.abs(grid[:, None, 0] - ink[None, :, 0]) < reach[0]
-    return ~(x & (np.abs(grid[:, None, 1] - ink[None, :, 1]) < reach[1])).any(axis=1)
+def _clear_of_ink(columns: FloatArray, rows: FloatArray, size: Size, ink: FloatArray) -> NDArray[np.bool_]:
+    """For each place, row by row, whether no point of the outlines lies in the line's rectangle or
+    too near to it."""
+    across, down = np.asarray(size) / 2 + SHEET.clear + SHEET.step / 2
+    in_column = np.abs(ink[:, :1] - columns) < across
+    in_row = np.abs(rows[:, None] - ink[:, 1]) < down
+    # The product counts, for each row and column, the points that are in both.
+    return (in_row.astype(np.float32) @ in_column.astype(np.float32) == 0).ravel()
 
 
-def _apart(grid: FloatArray, size: Size, centre: Point, other: Size) -> NDArray[np.bool_]:
-    reach = (np.asarray(size) + other) / 2 + SHEET.between
+def _apart(grid: FloatArray, size: Size, centre: Point, other: Size, between: Size) -> NDArray[np.bool_]:
+    reach = (np.asarray(size) + other) / 2 + between
     return np.any(np.abs(grid - centre) >= reach, axis=1)
 
 

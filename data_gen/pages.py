@@ -123,7 +123,7 @@ def _inked(meant: Problem, writer: Writer, rng: np.random.Generator) -> Sketch:
     lines = [typeset.line(remark.text, hand) for remark in meant.remarks]
     sizes = [_size(line) for line in lines]
     wishes = [remark.about[0][1] if remark.about else None for remark in meant.remarks]
-    places = layout.place(sizes, wishes, meant.components, rng)
+    places = layout.place(sizes, wishes, meant.components, writer.height, rng)
     truth = meaning(meant, places)
 
     quick = replace(writer, speed=STROKE_RULE.tap_speed * writer.speed, hooks=0.0)

@@ -135,6 +135,8 @@ def _row(queue: _Queue, by: Hand, stop: tuple[str, ...]) -> Written:
         kind = queue.peek()
         if kind == "*":
             queue.take()
+        elif kind in "/^" and not operand:
+            raise FormulaError(f"{kind!r} needs something before it", queue.text, queue.take().start)
         elif kind == "/":
             queue.take()
             pieces[-1:] = [_fraction(pieces[-1], _atom(queue, by)[1], by)]
@@ -235,16 +237,24 @@ def _fraction(over: Written, under: Written, by: Hand) -> Written:
     if not by.stacked:
         return _beside([over, _glyph("/", by), under], by)
     width = max(over.width, under.width) + 2 * PROPORTIONS.gap
-    above = over.moved((width - over.width) / 2, -PROPORTIONS.axis - PROPORTIONS.bar_gap - over.bottom)
-    beneath = under.moved((width - under.width) / 2, -PROPORTIONS.axis + PROPORTIONS.bar_gap - under.top)
+    above = over.moved((width - over.width) / 2, -PROPORTIONS.axis - PROPORTIONS.bar_gap - _reach(over)[1])
+    beneath = under.moved(
+        (width - under.width) / 2, -PROPORTIONS.axis + PROPORTIONS.bar_gap - _reach(under)[0]
+    )
     bar = np.array([[0.0, -PROPORTIONS.axis], [width, -PROPORTIONS.axis]])
     paths = (*above.paths, bar, *beneath.paths)
     return Written(paths, width, above.top, beneath.bottom)
 
 
+def _reach(piece: Written) -> tuple[float, float]:
+    """How far up and down its ink goes; slots say where it should."""
+    heights = np.concatenate([path[:, 1] for path in piece.paths])
+    return float(heights.min()), float(heights.max())
+
+
 def _root(inner: Written, by: Hand) -> Written:
     """A hook, a rising line and a bar over what stands under it, in one stroke."""
-    top, bottom = inner.top - PROPORTIONS.bar_gap, inner.bottom
+    top, bottom = _reach(inner)[0] - PROPORTIONS.bar_gap, inner.bottom
     lead = 0.45 * (1 + PROPORTIONS.loose * by.rng.uniform(-1, 1))
     low = bottom - 0.42 * (bottom - top)
     sign = np.array(

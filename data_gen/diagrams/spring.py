@@ -71,14 +71,11 @@ def _mass_beside_wall(rng: np.random.Generator) -> Problem:
     near = wall + xy(0, -height / 2)
     far = near + xy(side * rng.uniform(*ranges.length), 0)
     box = rectangle(far - xy(0, height / 2), far + xy(side * width, height / 2))
-    floor = wall - xy(side * thickness, 0)
+    near_end, far_end = wall - xy(side * thickness, 0), xy(300 + side * rng.uniform(230, 280), ground)
+    floor = rectangle(near_end, far_end + xy(0, rng.uniform(25, 45)))
     parts = (
         block("wall", rectangle(wall - xy(side * thickness, tall), wall), fixed=True),
-        block(
-            "floor",
-            rectangle(floor, floor + xy(side * rng.uniform(440, 500), rng.uniform(25, 45))),
-            fixed=True,
-        ),
+        block("floor", floor, fixed=True),
         block("mass", box),
         _spring(rng, near, far, ("wall", "mass")),
     )

@@ -26,11 +26,11 @@ from sketch.shapes import Point, Wire
 class HangingBoxRanges:
     """A box of 1 kg on two wires at 45° to two blocks; only 5√2 N on each keeps it where it is."""
 
-    width: Span = (80.0, 150.0)
+    width: Span = (80.0, 130.0)
     height: Span = (60.0, 110.0)
-    reach: Span = (75.0, 130.0)
+    reach: Span = (75.0, 115.0)
     """Each wire's horizontal (and vertical) extent; the two need not be equal."""
-    block_width: Span = (55.0, 110.0)
+    block_width: Span = (50.0, 95.0)
     block_height: Span = (30.0, 60.0)
     seconds: float = 2.0
 
@@ -48,7 +48,7 @@ def box_on_two_wires(answer: str, rng: np.random.Generator) -> Problem:
     ranges = HangingBoxRanges()
     half = rng.uniform(*ranges.width) / 2
     height = rng.uniform(*ranges.height)
-    top = np.array([300 + rng.uniform(-30, 30), rng.uniform(225, 265)])  # middle of the box's top side
+    top = np.array([300 + rng.uniform(-20, 20), rng.uniform(225, 265)])  # middle of the box's top side
     parts = [block("box", rectangle(top - xy(half, 0), top + xy(half, height)))]
     remarks = [Remark("g = 10"), Remark("m = 1", (("box", point(top + xy(0, height / 2))),))]
     about: list[tuple[str, Point]] = []

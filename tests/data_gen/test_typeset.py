@@ -1,0 +1,93 @@
+"""Laws of handwritten lines: what a formula looks like whatever hand wrote it."""
+
+import numpy as np
+import pytest
+
+from data_gen.typeset import Hand, hand, line
+from data_gen.writers import sample_writer
+from sketch.formula.lexer import FormulaError
+
+
+def somebody(seed: int, stacked: bool = True) -> Hand:
+    rng = np.random.default_rng([9, seed])
+    writer = sample_writer(rng)
+    made = hand(writer, rng)
+    return Hand(made.writer, made.usual, stacked, rng)
+
+
+def box(path):
+    return path.min(axis=0), path.max(axis=0)
+
+
+TEXTS = [
+    "theta = pi/6",
+    "f_1 = 0.9 |W| cos(theta)",
+    "T_1 = 5 sqrt(2)",
+    "v_x = -1.5",
+    "g = 10",
+    "1/2 m v^2 = m g h",
+]
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_a_line_is_centred_and_made_of_finite_strokes(text):
+    for seed in range(8):
+        strokes = line(text, somebody(seed))
+        low, high = box(np.concatenate(strokes))
+        assert np.isfinite(low).all() and np.isfinite(high).all()
+        np.testing.assert_allclose(low + high, 0, atol=1e-9)
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_a_line_is_as_tall_as_its_writer_writes(text):
+    for seed in range(8):
+        by = somebody(seed)
+        low, high = box(np.concatenate(line(text, by)))
+        assert 0.6 < (high - low)[1] / by.writer.height < 3.2
+
+
+def test_a_stacked_fraction_has_its_numerator_above_and_its_denominator_below_the_bar():
+    for seed in range(8):
+        strokes = line("1/2", somebody(seed))
+        bar = max(range(len(strokes)), key=lambda k: np.ptp(strokes[k][:, 0]))
+        height = strokes[bar][:, 1].mean()
+        assert max(path[:, 1].max() for path in strokes[:bar]) < height
+        assert min(path[:, 1].min() for path in strokes[bar + 1 :]) > height
+
+
+def test_a_slashed_fraction_keeps_to_one_line():
+    for seed in range(8):
+        stacked = np.concatenate(line("pi/6", somebody(seed)))
+        slashed = np.concatenate(line("pi/6", somebody(seed, stacked=False)))
+        assert np.ptp(slashed[:, 1]) < np.ptp(stacked[:, 1])
+
+
+def test_a_root_covers_what_stands_under_it():
+    for seed in range(8):
+        root, *inner = line("sqrt(25)", somebody(seed))
+        low, high = box(np.concatenate(inner))
+        assert root[:, 1].min() < low[1]
+        assert root[:, 0].min() < low[0]
+        assert root[-1, 0] > high[0] - 0.1 * np.ptp(root[:, 0])
+
+
+def test_subscripts_are_smaller_and_lower_than_their_letter_and_exponents_higher():
+    for seed in range(8):
+        plain = np.concatenate(line("x", somebody(seed)))
+        sub = np.concatenate(line("x_2", somebody(seed)))
+        power = np.concatenate(line("x^2", somebody(seed)))
+        # The centre of a line is 0; a subscript draws the line's letter up, an exponent down.
+        assert np.ptp(sub[:, 1]) > np.ptp(plain[:, 1])
+        assert np.ptp(power[:, 1]) > np.ptp(plain[:, 1])
+        right = sub[:, 0] > sub[:, 0].max() - 0.25 * np.ptp(sub[:, 0])
+        assert sub[right, 1].max() == pytest.approx(sub[:, 1].max(), abs=1e-6) or sub[right, 1].mean() > 0
+        right = power[:, 0] > power[:, 0].max() - 0.25 * np.ptp(power[:, 0])
+        assert power[right, 1].mean() < 0
+
+
+def test_text_that_is_no_formula_is_refused_with_its_place():
+    with pytest.raises(FormulaError) as caught:
+        line("(1 + 2", somebody(0))
+    assert caught.value.position == 6
+    with pytest.raises(FormulaError):
+        line("a = /2", somebody(0))
