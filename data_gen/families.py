@@ -49,6 +49,8 @@ class FamilyRule:
     """Share of mathematics that are other marks: braces, stars, checks, curls."""
     word: float = 0.05
     """Share of mathematics that are letters joined up to a word."""
+    star: float = 0.06
+    """Share of mathematics that are five-pointed stars in one stroke."""
     straight: float = 0.93
     """A stroke of a letter whose chord is more of its length than this is a wire when alone."""
 
@@ -124,18 +126,21 @@ def wire(rng: np.random.Generator) -> FloatArray:
 
 def arrow(rng: np.random.Generator) -> FloatArray:
     """Arrows in one stroke: straight or bent shaft, head open or closed, its barbs uneven."""
-    u, z = rng.random(8), rng.standard_normal(6)
-    head = 0.12 + 0.4 * u[0]
-    opening = np.radians(18 + 38 * u[1])
-    points = ideals.arrow((0, 0), (1, 0), head, opening, closed=u[2] < 0.5)
-    points[2:-1] += 0.03 * rng.standard_normal((len(points) - 3, 2))
-    points[-1] += 0.03 * z[:2]
+    u, z = rng.random(8), rng.standard_normal(10)
+    head = (0.12 + 0.45 * u[0]) * np.exp(0.2 * z[:2])
+    opening = np.radians(18 + 38 * u[1]) + 0.15 * z[2:4]
+    tip = np.array([1.0, 0.0])
+    first = tip + head[0] * np.array([-np.cos(opening[0]), np.sin(opening[0])])
+    second = tip + head[1] * np.array([-np.cos(opening[1]), -np.sin(opening[1])])
+    # Many never quite return to the tip between the barbs, or overshoot it.
+    again = tip + 0.22 * head.mean() * z[4:6]
+    barbs = [first, second, again] if u[2] < 0.4 else [first, again, second]
     shaft = np.linspace(0.0, 1.0, 16)
-    bend = 0.02 * z[2] if u[3] < 0.75 else 0.18 * z[2]
+    bend = 0.03 * z[6] if u[3] < 0.7 else 0.15 * z[6]
     bowed = np.column_stack([shaft, bend * 4 * shaft * (1 - shaft)])
     if u[4] < 0.06:
         bowed = np.array([[0.3, 0.6 + 0.5 * u[5]], [0.0, 0.0], [1.0, 0.0]])
-    path = np.concatenate([bowed, points[2:]])
+    path = np.concatenate([bowed, barbs])
     if u[6] < 0.5:
         path = path * np.array([1.0, -1.0])
     return _turned(path, 2 * np.pi * u[7])
@@ -160,7 +165,9 @@ def scribble(rng: np.random.Generator) -> FloatArray:
     else:
         phase = np.linspace(0.0, 2 * np.pi * (4 + 5 * u[0]), 160)
         swell = 1.0 + 0.15 * np.sin(0.37 * phase + z[0])
-        path = np.column_stack([0.04 * phase / np.pi + 0.5 * swell * np.cos(phase), 0.4 * swell * np.sin(phase)])
+        path = np.column_stack(
+            [0.04 * phase / np.pi + 0.5 * swell * np.cos(phase), 0.4 * swell * np.sin(phase)]
+        )
     return _turned(path, 2 * np.pi * u[4])
 
 
@@ -182,7 +189,7 @@ def mathematics(rng: np.random.Generator) -> FloatArray:
     if u < RULE.word:
         path = _word(rng)
     else:
-        path = _pick(_lone_strokes("marks" if u < RULE.word + RULE.mark else "symbols"), rng)
+        path = _star(rng) if u < RULE.word + RULE.star else _pick(_lone_strokes(_pool(u)), rng)
     size = float(np.max(path.max(axis=0) - path.min(axis=0)))
     z = rng.standard_normal(6)
     scaled = (path - path.mean(axis=0)) / size * np.exp(0.5 * 0.22 * z[0] * np.array([1.0, -1.0]))
@@ -216,6 +223,8 @@ def _lone_strokes(pool: str) -> list[list[FloatArray]]:
     """For each symbol of a pool its strokes that are mathematics even without company."""
     if pool not in _POOLS:
         names = alphabet.marks() if pool == "marks" else alphabet.symbols()
+        if pool == "round letters":
+            names = tuple("abcdeghloqsz")
         found = [
             [
                 stroke
@@ -239,6 +248,17 @@ def _component_like(name: str, stroke: FloatArray) -> bool:
     return name in RING_OR_TRIANGLE or small or ring or closure(stroke) > RULE.straight
 
 
+def _pool(u: float) -> str:
+    return "marks" if u < RULE.word + RULE.star + RULE.mark else "symbols"
+
+
+def _star(rng: np.random.Generator) -> FloatArray:
+    """A pentagram begun at any of its points, its points uneven."""
+    u, z = rng.random(2), rng.standard_normal((6, 2))
+    around = 2 * np.pi * (int(5 * u[0]) / 5 + 0.4 * np.arange(6)) - np.pi / 2
+    return _directed(np.column_stack([np.cos(around), np.sin(around)]) + 0.1 * z, u[1])
+
+
 def _pick(pool: list[list[FloatArray]], rng: np.random.Generator) -> FloatArray:
     one, other = rng.random(2).tolist()
     ways = pool[int(one * len(pool))]
@@ -246,12 +266,12 @@ def _pick(pool: list[list[FloatArray]], rng: np.random.Generator) -> FloatArray:
 
 
 def _word(rng: np.random.Generator) -> FloatArray:
-    """Two to five letters of one stroke each, joined."""
+    """Two to five letters of one stroke each, joined; none of those whose rows of legs look like a spring."""
     count = 2 + int(4 * float(rng.random()))
     pieces: list[FloatArray] = []
     x = 0.0
     for _ in range(count):
-        stroke = _pick(_lone_strokes("symbols"), rng)
+        stroke = _pick(_lone_strokes("round letters"), rng)
         low, high = stroke.min(axis=0), stroke.max(axis=0)
         pieces.append(stroke + np.array([x - low[0], 0.0]))
         x += float(high[0] - low[0]) + 1.5

@@ -38,6 +38,10 @@ class PenRule:
     """Width of a strokelet's lognormal, log seconds: the skewed bell of measured speed profiles."""
     isochrony: float = 0.35
     """A strokelet's time grows as its length to this power: long ones are drawn faster (Viviani 1982)."""
+    unit_length: float = 40.0
+    """Page units that a strokelet of the writer's mean time covers."""
+    shortest: float = 0.03
+    """No strokelet is quicker than this, seconds: a tap of the finger."""
     reach: float = 2.6
     """A strokelet is followed over ± this many sigmas; the tails left out are 0.9 % of it and are rescaled."""
     slowest: float = 25.0
@@ -92,6 +96,7 @@ def draw_batch(
     normals = np.array([rng.standard_normal(hand.draws + 8) for rng in rngs])
     hooked = [_hooked(path, share, rng) for path, share, rng in zip(paths, habit["hooks"], rngs, strict=True)]
     even = np.array([resample(path, RULE.path_points) for path in hooked])
+    even = _late(even, habit["late"])
     meant = hand.apply(even, normals[:, : hand.draws])
     points, times, offsets = _travel(meant, habit, normals[:, hand.draws :])
     points = _shaken(points, times, offsets, meant, habit, normals[:, hand.draws :], rngs)
@@ -116,6 +121,16 @@ def _hooked(path: FloatArray, share: float, rng: np.random.Generator) -> FloatAr
     return np.concatenate(pieces)
 
 
+def _late(paths: FloatArray, share: FloatArray) -> FloatArray:
+    """The first share of each path as a straight line: what a device sees that wakes up late."""
+    place = np.linspace(0.0, 1.0, paths.shape[1])
+    seen = np.minimum((share * (paths.shape[1] - 1)).astype(int), paths.shape[1] - 1)
+    woken = paths[np.arange(len(paths)), seen][:, None]
+    reach = np.maximum(place[seen], 1e-9)[:, None]
+    chord = paths[:, :1] + (place / reach)[..., None] * (woken - paths[:, :1])
+    return np.where((place < reach)[..., None], chord, paths)
+
+
 def _travel(
     meant: FloatArray, habit: dict[str, FloatArray], normals: FloatArray
 ) -> tuple[FloatArray, FloatArray, Indices]:
@@ -132,7 +147,9 @@ def _travel(
     closing = np.minimum(np.ceil(end / interval[owner]).astype(int), samples[owner] - 1)
     finished = np.bincount(offsets[owner] + closing, minlength=int(offsets[-1]))
     ended = np.cumsum(finished)
-    pending = np.minimum(ended, (np.searchsorted(owner, np.arange(len(samples)), side="right") - 1)[stroke_of])
+    pending = np.minimum(
+        ended, (np.searchsorted(owner, np.arange(len(samples)), side="right") - 1)[stroke_of]
+    )
     flat = meant.reshape(-1, 2)
     row0 = owner * meant.shape[1]
     origin = flat[row0 + from_]
@@ -180,8 +197,9 @@ def _timing(
     pieces = np.bincount(owner)
     first = np.searchsorted(owner, np.arange(len(pieces)))
     rank = np.arange(len(owner)) - first[owner]
-    # Length against the stroke's mean strokelet; a stroke of one strokelet has the unit time.
-    duration = (share * pieces[owner]) ** RULE.isochrony / habit["speed"][owner]
+    length = np.linalg.norm(np.diff(meant, axis=1), axis=2).sum(axis=1)
+    duration = (share * length[owner] / RULE.unit_length) ** RULE.isochrony / habit["speed"][owner]
+    duration = np.maximum(duration, RULE.shortest)
     duration *= np.exp(0.12 * normals[owner, rank % 6])
     start, end, total = (np.zeros(len(owner)), np.zeros(len(owner)), np.zeros(len(pieces)))
     for turn in range(int(pieces.max())):
@@ -220,9 +238,14 @@ def _shaken(
     sizes = np.linalg.norm(meant.max(axis=1) - meant.min(axis=1), axis=1)
     counts = np.diff(offsets)
     amount = np.repeat(habit["tremor"] * sizes, counts)[:, None]
-    noise = np.concatenate([rng.standard_normal((n, 2)) for rng, n in zip(rngs, counts.tolist(), strict=True)])
+    noise = np.concatenate(
+        [rng.standard_normal((n, 2)) for rng, n in zip(rngs, counts.tolist(), strict=True)]
+    )
     frequency = RULE.shake * np.exp(0.15 * normals[:, 6])
-    phase = 2 * np.pi * (np.repeat(frequency, counts) * times)[:, None] + np.repeat(normals[:, 6:8], counts, axis=0) * 3
+    phase = (
+        2 * np.pi * (np.repeat(frequency, counts) * times)[:, None]
+        + np.repeat(normals[:, 6:8], counts, axis=0) * 3
+    )
     return points + amount * (0.6 * noise + np.sin(phase))
 
 
@@ -232,12 +255,12 @@ def _rounded(points: FloatArray, grid: FloatArray) -> FloatArray:
     return np.where(grid[:, None] > 0, np.round(points / size) * size, points)
 
 
-def _pressure(
-    offsets: Indices, habit: dict[str, FloatArray], normals: FloatArray
-) -> FloatArray:
+def _pressure(offsets: Indices, habit: dict[str, FloatArray], normals: FloatArray) -> FloatArray:
     """Pressure rises within the first tenth of a stroke, falls in the last, and drifts in between."""
     counts = np.diff(offsets)
-    place = (np.arange(offsets[-1]) - np.repeat(offsets[:-1], counts)) / np.repeat(np.maximum(counts - 1, 1), counts)
+    place = (np.arange(offsets[-1]) - np.repeat(offsets[:-1], counts)) / np.repeat(
+        np.maximum(counts - 1, 1), counts
+    )
     envelope = np.minimum(1.0, 0.35 + 6.5 * np.minimum(place, 1 - place))
     drift = 1.0 + 0.1 * np.repeat(normals[:, 0], counts) * np.sin(2 * np.pi * place)
     return np.clip(np.repeat(habit["pressure"], counts) * envelope * drift, 0.0, 1.0)

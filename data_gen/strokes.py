@@ -28,8 +28,6 @@ class StrokeRule:
     """Log-uniform range of a stroke's size, page units; with the pixel grid it sets how coarse ink is."""
     tap_size: tuple[float, float] = (0.3, 3.0)
     """The same for taps: a resting hand moves by a pixel or two."""
-    tap_speed: float = 3.0
-    """A tap takes a third of a strokelet's time."""
     loose: float = 1.5
     """Letters waver this much more than shapes, against their size: they are small and quick."""
 
@@ -77,7 +75,9 @@ def stream(
         raise ValueError(f"count {count} and start {start}: both must be zero or more")
     shares = np.array([mix.get(kind, 0.0) for kind in STROKE_KINDS])
     if abs(shares.sum() - 1) > 1e-9 or shares.min() < 0:
-        raise ValueError(f"the shares of the kinds sum to {shares.sum():g}; they must be positive and sum to 1")
+        raise ValueError(
+            f"the shares of the kinds sum to {shares.sum():g}; they must be positive and sum to 1"
+        )
     for first in range(start, start + count, RULE.batch):
         indices = range(first, min(first + RULE.batch, start + count))
         yield from _batch(seed, indices, np.cumsum(shares))
@@ -102,7 +102,7 @@ def _meant(rng: np.random.Generator, cumulative: FloatArray) -> tuple[StrokeKind
     low, high = RULE.size
     if kind == "tap":
         low, high = RULE.tap_size
-        writer = replace(writer, speed=RULE.tap_speed * writer.speed, hooks=0.0)
+        writer = replace(writer, hooks=0.0)
     elif kind == "math":
         writer = replace(writer, wobble=RULE.loose * writer.wobble)
     size = low * (high / low) ** large
@@ -122,5 +122,7 @@ def formula_strokes(count: int, seed: int, start: int = 0) -> list[LabelledStrok
         paths = [writer.height * letter_part(rng) for writer, rng in zip(writers, rngs, strict=True)]
         loose = [replace(writer, wobble=RULE.loose * writer.wobble) for writer in writers]
         strokes = strokes_from(draw_batch(paths, loose, rngs))
-        made += [LabelledStroke("math", stroke, index) for stroke, index in zip(strokes, indices, strict=True)]
+        made += [
+            LabelledStroke("math", stroke, index) for stroke, index in zip(strokes, indices, strict=True)
+        ]
     return made

@@ -38,6 +38,8 @@ class Writer:
     """Samples per second of the digitiser: 20 (slow web page) to 250 Hz (tablet)."""
     grid: float
     """Pixel size in page units to which points are rounded; 0 for a sub-pixel stylus."""
+    late: float
+    """Share of each stroke that a slow device misses after pen-down and bridges by a straight line."""
     zigzag: float
     """Share of springs drawn as zig-zag, the rest as coils."""
     pieces: float
@@ -50,7 +52,7 @@ class Writer:
 
 def sample_writer(rng: np.random.Generator) -> Writer:
     """A person drawn at random. Consumes the same number of variates whatever comes out."""
-    u, z = rng.random(8), rng.standard_normal(8)
+    u, z = rng.random(9), rng.standard_normal(8)
     return Writer(
         slant=float(0.1 + 0.15 * z[0]),
         stretch=float(0.15 * z[1]),
@@ -60,8 +62,9 @@ def sample_writer(rng: np.random.Generator) -> Writer:
         speed=float(np.exp(np.log(5.5) + 0.35 * z[4])),
         hooks=float(0.35 * u[1] ** 2),
         gap=float(0.02 * z[5]),
-        rate=float(np.exp(np.log(20) + (np.log(250) - np.log(20)) * np.sqrt(u[2]))),
+        rate=float(np.exp(np.log(20) + (np.log(250) - np.log(20)) * u[2])),
         grid=(0.0, 1.0, 0.25)[int(3 * u[3])],
+        late=float(max(0.0, 0.9 * (u[8] - 0.8))),
         zigzag=float(u[4]),
         pieces=float(0.5 * u[5] ** 2),
         height=float(16 + 14 * u[6]),
@@ -72,5 +75,6 @@ def sample_writer(rng: np.random.Generator) -> Writer:
 def habits(writers: Sequence[Writer]) -> dict[str, FloatArray]:
     """The writers' habits column by column: field -> (len(writers),)."""
     return {
-        item.name: np.array([getattr(writer, item.name) for writer in writers], dtype=float) for item in fields(Writer)
+        item.name: np.array([getattr(writer, item.name) for writer in writers], dtype=float)
+        for item in fields(Writer)
     }

@@ -13,6 +13,7 @@ from __future__ import annotations
 import json
 from functools import cache
 from importlib import resources
+from itertools import pairwise
 
 import numpy as np
 
@@ -55,7 +56,9 @@ def _ways(symbol: str) -> tuple[tuple[FloatArray, ...], ...]:
 
 @cache
 def _parsed(file: str) -> dict[str, tuple[tuple[FloatArray, ...], ...]]:
-    raw: dict[str, list[str]] = json.loads(resources.files("data_gen.glyphs").joinpath(file).read_text("utf-8"))
+    raw: dict[str, list[str]] = json.loads(
+        resources.files("data_gen.glyphs").joinpath(file).read_text("utf-8")
+    )
     return {
         symbol: tuple(tuple(_curve(stroke) for stroke in way.split("/")) for way in ways)
         for symbol, ways in raw.items()
@@ -66,7 +69,7 @@ def _curve(text: str) -> FloatArray:
     nodes = [node.strip() for node in text.split(",")]
     points = np.array([[float(number) for number in node.rstrip("*").split()] for node in nodes])
     corners = [0, *(k for k in range(1, len(nodes) - 1) if nodes[k].endswith("*")), len(nodes) - 1]
-    pieces = [_catmull_rom(points[a : b + 1]) for a, b in zip(corners, corners[1:], strict=False)]
+    pieces = [_catmull_rom(points[a : b + 1]) for a, b in pairwise(corners)]
     return readonly(np.concatenate([pieces[0], *(piece[1:] for piece in pieces[1:])]))
 
 
@@ -77,5 +80,7 @@ def _catmull_rom(points: FloatArray) -> FloatArray:
     padded = np.concatenate([2 * points[:1] - points[1:2], points, 2 * points[-1:] - points[-2:-1]])
     p0, p1, p2, p3 = (padded[k : len(padded) - 3 + k, None, :] for k in range(4))
     t = (np.arange(STEPS) / STEPS)[None, :, None]
-    curve = 0.5 * (2 * p1 + (p2 - p0) * t + (2 * p0 - 5 * p1 + 4 * p2 - p3) * t**2 + (3 * p1 - p0 - 3 * p2 + p3) * t**3)
+    curve = 0.5 * (
+        2 * p1 + (p2 - p0) * t + (2 * p0 - 5 * p1 + 4 * p2 - p3) * t**2 + (3 * p1 - p0 - 3 * p2 + p3) * t**3
+    )
     return np.concatenate([curve.reshape(-1, 2), points[-1:]])

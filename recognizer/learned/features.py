@@ -1,0 +1,300 @@
+"""What the net looks at: 64 points of a stroke and a handful of numbers about the whole of it.
+
+Everything is a ratio of lengths or an angle, so that position and scale of the page, and the rate
+at which the pen was sampled, do not matter; only `page_features` compare a stroke with its page.
+All functions work on batches: paths (B, 64, 2), page units, y down.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sketch.geometry import distinct, resample
+from sketch.ink import FloatArray, Ink
+
+POINTS = 64
+"""Points of equal spacing that stand for a stroke: five for each leg of a twelve-legged zig-zag."""
+
+
+@dataclass(frozen=True, slots=True)
+class FeatureRule:
+    """Numbers of the features."""
+
+    corner: float = np.radians(45.0)
+    """A turn within `corner_span` points sharper than this counts as a corner."""
+    corner_span: int = 2
+    """Points on either side of a corner: a corner rounded over 5 % of the stroke still counts."""
+    directions: int = 36
+    """Directions of the support function: 5 degrees apart over a half turn and back."""
+    few_points: int = 12
+    """A stroke with this many different points or more is not a dot; beyond it the count is not looked at."""
+    smallest: float = 1e-3
+    """Relative sizes on a page below this count as this."""
+
+
+RULE = FeatureRule()
+
+SEQUENCE_CHANNELS = (
+    "x",
+    "y",
+    "heading cosine",
+    "heading sine",
+    "turn",
+    "turn, absolute",
+    "wider turn",
+    "distance from the centroid",
+    "distance from the start",
+    "distance from the end",
+    "turned so far",
+    "crossings here",
+)
+GLOBAL_FEATURES = (
+    "gap of the ends over length",
+    "gap of the ends over size",
+    "log length over size",
+    "width of the lesser axis over the greater",
+    "turning, signed, turns",
+    "turning, absolute, turns",
+    "share of the turning in one sense",
+    "changes of the turning's sense",
+    "corners",
+    "sharpest turn",
+    "crossings",
+    "compactness of the enclosed area",
+    "length over the hull's perimeter",
+    "spread of the radius about the centroid",
+    "spread of the radius in the whitened frame",
+    "farthest from the chord over the chord",
+    "swings across the main axis",
+    "returns along the main axis",
+    "advance along the main axis over length",
+    "gap that closing at the best crossing would leave",
+    "different points (few)",
+    "is a dot",
+)
+PAGE_FEATURES = ("has company", "log size over the page's", "share of the page's other strokes inside")
+
+
+def features(paths: FloatArray, distinct_points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Evenly spaced paths (B, 64, 2) and the number of different raw points of each (B,) to
+    (B, 12, 64), the channels of `SEQUENCE_CHANNELS`, and (B, 22), the `GLOBAL_FEATURES`."""
+    low, high = paths.min(axis=1, keepdims=True), paths.max(axis=1, keepdims=True)
+    moving = (high > low).any(axis=(1, 2))
+    size = _positive(np.hypot(*np.moveaxis(high - low, 2, 0)))[..., None]
+    unit = (paths - (low + high) / 2) / size
+    shared = _Shared(unit, *_heading_and_turn(unit), _wide_turn(unit, RULE.corner_span), _crossings(unit))
+    overall = _global(shared, np.minimum(distinct_points, RULE.few_points) / RULE.few_points, ~moving)
+    overall[:, :-2] *= moving[:, None]
+    return _sequence(shared) * moving[:, None, None], overall
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Shared:
+    """What both kinds of features start from: paths in their own frame, headings, turns, crossings."""
+
+    unit: FloatArray
+    heading: FloatArray
+    turn: FloatArray
+    wide: FloatArray
+    crossings: FloatArray
+
+
+def _sequence(shared: _Shared) -> FloatArray:
+    unit = shared.unit
+    channels = [
+        2 * unit[..., 0],
+        2 * unit[..., 1],
+        np.cos(shared.heading),
+        np.sin(shared.heading),
+        shared.turn / np.pi,
+        np.abs(shared.turn) / np.pi,
+        shared.wide / np.pi,
+        2 * _distance(unit - unit.mean(axis=1, keepdims=True)),
+        _distance(unit - unit[:, :1]),
+        _distance(unit - unit[:, -1:]),
+        np.cumsum(shared.turn, axis=1) / (4 * np.pi),
+        np.minimum(shared.crossings, 3.0) / 3.0,
+    ]
+    return np.stack(channels, axis=1)
+
+
+def _global(shared: _Shared, few: FloatArray, still: NDArray[np.bool_]) -> FloatArray:
+    unit = shared.unit - shared.unit.mean(axis=1, keepdims=True)
+    length = _positive(_distance(np.diff(unit, axis=1)).sum(axis=1))
+    gap = _distance(unit[:, -1] - unit[:, 0])
+    inner = shared.turn[:, 1:-1]
+    signed, absolute = inner.sum(axis=1), np.abs(inner).sum(axis=1)
+    sharp = np.abs(shared.wide)
+    along, across, whitened = _principal(unit)
+    columns = [
+        gap / length,
+        gap,
+        np.log(length),
+        np.ptp(across, axis=1) / _positive(np.ptp(along, axis=1)),
+        signed / (2 * np.pi),
+        absolute / (2 * np.pi),
+        np.abs(signed) / _positive(absolute),
+        _sign_changes(inner, 0.05) / 10,
+        _peaks(sharp, RULE.corner) / 8,
+        sharp.max(axis=1) / np.pi,
+        shared.crossings.sum(axis=1) / 2 / 10,
+        4 * np.pi * np.abs(_enclosed(unit)) / length**2,
+        length / _positive(_hull_perimeter(unit)),
+        _spread(_distance(unit)),
+        _spread(whitened),
+        _chord_deviation(unit) / length,
+        _sign_changes(across, 0.15) / 10,
+        _sign_changes(np.diff(along, axis=1), 0.25) / 10,
+        np.abs(along[:, -1] - along[:, 0]) / length,
+        _best_closing(unit) / length,
+        few,
+        still.astype(float),
+    ]
+    return np.clip(np.stack(columns, axis=1), -6.0, 6.0)
+
+
+def page_features(ink: Ink) -> FloatArray:
+    """How each stroke stands among the others, (n, 3), in the order of `PAGE_FEATURES`; zeros when alone."""
+    count = len(ink)
+    if count < 2:
+        return np.zeros((count, len(PAGE_FEATURES)))
+    low = np.array([stroke.points.min(axis=0) for stroke in ink])
+    high = np.array([stroke.points.max(axis=0) for stroke in ink])
+    sizes = np.linalg.norm(high - low, axis=1)
+    page = float(np.linalg.norm(high.max(axis=0) - low.min(axis=0)))
+    relative = np.log(np.maximum(sizes / page if page > 0 else sizes + 1.0, RULE.smallest))
+    inside = _boxes_inside(low, high)
+    return np.column_stack([np.ones(count), relative / 3.0, inside / (count - 1)])
+
+
+def _boxes_inside(low: FloatArray, high: FloatArray) -> FloatArray:
+    """For each box the number of other boxes whose centre it contains, (n,). Works in blocks: n may be 20,000."""
+    centre = (low + high) / 2
+    counts = np.empty(len(low))
+    for first in range(0, len(low), 512):
+        part = slice(first, first + 512)
+        contained = (centre[None] > low[part, None]) & (centre[None] < high[part, None])
+        smaller = (high - low).max(axis=1)[None] < (high - low)[part].max(axis=1)[:, None]
+        counts[part] = (contained.all(axis=2) & smaller).sum(axis=1)
+    return counts
+
+
+def of_strokes(points: Sequence[FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """Sequence (B, 12, 64) and global (B, 22) features of raw strokes, each (n, 2)."""
+    return features(*_evenly_spaced(points))
+
+
+def both_ways(points: Sequence[FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """The same for each stroke and then for each stroke drawn backwards: (2 B, 12, 64) and (2 B, 22)."""
+    paths, counts = _evenly_spaced(points)
+    return features(np.concatenate([paths, paths[:, ::-1]]), np.concatenate([counts, counts]))
+
+
+def _evenly_spaced(points: Sequence[FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """Strokes as `POINTS` points of equal spacing, (B, 64, 2), and how many different points each had, (B,)."""
+    cleaned = [distinct(stroke) for stroke in points]
+    paths = np.array([resample(stroke, POINTS) for stroke in cleaned]).reshape(-1, POINTS, 2)
+    return paths, np.array([float(len(stroke)) for stroke in cleaned])
+
+
+def _distance(vectors: FloatArray) -> FloatArray:
+    return np.hypot(vectors[..., 0], vectors[..., 1])
+
+
+def _positive(values: FloatArray) -> FloatArray:
+    return np.where(values > 0, values, 1.0)
+
+
+def _heading_and_turn(paths: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Heading at each point (of the step that leaves it; the last repeats) and signed turn, 0 at both ends."""
+    step = np.diff(paths, axis=1)
+    heading = np.arctan2(step[..., 1], step[..., 0])
+    turn = (np.diff(heading, axis=1) + np.pi) % (2 * np.pi) - np.pi
+    return np.concatenate([heading, heading[:, -1:]], axis=1), np.pad(turn, ((0, 0), (1, 1)))
+
+
+def _wide_turn(paths: FloatArray, span: int) -> FloatArray:
+    """Turn between the chords to `span` points before and after, (B, 64); 0 near the ends."""
+    before = paths[:, span:-span] - paths[:, : -2 * span]
+    after = paths[:, 2 * span :] - paths[:, span:-span]
+    cross = before[..., 0] * after[..., 1] - before[..., 1] * after[..., 0]
+    turn = np.arctan2(cross, (before * after).sum(axis=2))
+    return np.pad(turn, ((0, 0), (span, span)))
+
+
+_APART = np.abs(np.subtract.outer(np.arange(POINTS - 1), np.arange(POINTS - 1))) >= 2
+"""Which pairs of steps can cross: not a step with itself or with its neighbour."""
+
+
+def _crossings(unit: FloatArray) -> FloatArray:
+    """For each point the number of crossings on the step that leaves it, (B, 64); 0 at the last.
+
+    Two steps cross when the ends of each lie on different sides of the other. A point nearer to the
+    other's line than rounding counts as on its right, so that a path run back on itself crosses nothing.
+    """
+    step = np.diff(unit, axis=1)
+    normal = np.stack([-step[..., 1], step[..., 0]], axis=2)
+    offset = (unit[:, :-1] * normal).sum(axis=2)
+    left = normal @ np.swapaxes(unit, 1, 2) - offset[..., None] > 1e-12
+    parted = left[..., 1:] != left[..., :-1]
+    hits = parted & np.swapaxes(parted, 1, 2) & _APART
+    return np.pad(hits.sum(axis=2).astype(float), ((0, 0), (0, 1)))
+
+
+def _principal(unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Coordinates along and across the main axis, (B, 64) each, and the radius once both spreads are made 1."""
+    covariance = np.einsum("bni,bnj->bij", unit, unit) / unit.shape[1]
+    spread, axes = np.linalg.eigh(covariance)
+    across, along = (unit @ axes)[..., 0], (unit @ axes)[..., 1]
+    scale = np.sqrt(np.maximum(spread, 1e-9))
+    return along, across, np.hypot(across / scale[:, :1], along / scale[:, 1:])
+
+
+def _sign_changes(values: FloatArray, threshold: float) -> FloatArray:
+    """How often each row swings from above +h to below −h or back, h a share of its largest magnitude, (B,)."""
+    height = threshold * np.abs(values).max(axis=1, keepdims=True)
+    side = np.where(values > height, 1, np.where(values < -height, -1, 0))
+    held = np.where(side != 0, np.arange(values.shape[1]), 0)
+    last = np.take_along_axis(side, np.maximum.accumulate(held, axis=1), axis=1)
+    return ((last[:, 1:] * last[:, :-1]) < 0).sum(axis=1).astype(float)
+
+
+def _peaks(values: FloatArray, threshold: float) -> FloatArray:
+    """Number of local maxima above the threshold in each row, (B,)."""
+    inner = values[:, 1:-1]
+    peak = (inner > threshold) & (inner >= values[:, :-2]) & (inner > values[:, 2:])
+    return peak.sum(axis=1).astype(float)
+
+
+def _enclosed(unit: FloatArray) -> FloatArray:
+    x, y = unit[..., 0], unit[..., 1]
+    return 0.5 * (x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1)
+
+
+def _hull_perimeter(unit: FloatArray) -> FloatArray:
+    """Cauchy: the hull's perimeter is the mean width times π."""
+    angle = np.arange(RULE.directions) * np.pi / RULE.directions
+    shadow = unit @ np.stack([np.cos(angle), np.sin(angle)])
+    return np.pi * (shadow.max(axis=1) - shadow.min(axis=1)).mean(axis=1)
+
+
+def _spread(radius: FloatArray) -> FloatArray:
+    return radius.std(axis=1) / _positive(radius.mean(axis=1))
+
+
+def _chord_deviation(unit: FloatArray) -> FloatArray:
+    chord = unit[:, -1] - unit[:, 0]
+    offset = unit - unit[:, :1]
+    cross = np.abs(chord[:, None, 0] * offset[..., 1] - chord[:, None, 1] * offset[..., 0])
+    return cross.max(axis=1) / _positive(_distance(chord))
+
+
+def _best_closing(unit: FloatArray) -> FloatArray:
+    """Smallest distance between a point of the first quarter and one of the last: 0 where a tail crosses."""
+    quarter = unit.shape[1] // 4
+    gaps = _distance(unit[:, :quarter, None] - unit[:, None, -quarter:])
+    return gaps.min(axis=(1, 2))
