@@ -25,9 +25,9 @@ from sketch.page import GestureKind
 class GestureRule:
     """What makes a stroke a gesture."""
 
-    dot: float = 0.25
+    dot: float = 0.3
     """A tap's size over the median stroke's, at most: the dot of an i is a sixth of its stem, a
-    comma a third of a letter."""
+    comma half a small letter."""
     dot_of_largest: float = 0.08
     """The same over the page's largest stroke, where letters do not set the median: shapes on a page
     are seldom below a tenth of the largest."""
@@ -35,8 +35,10 @@ class GestureRule:
     """Seconds a tap lasts, at most, where times are known: a slow click."""
     lone_size: float = 6.0
     """Page units (6 cm at 100 units to the metre). A stroke alone has nothing to be small beside."""
+    lone_time: float = 0.15
+    """Seconds a lone tap lasts, at most: the quickest line takes as long."""
     lone_points: int = 5
-    """Points of a lone tap, at most: small ink in unknown units has more."""
+    """Points of a lone tap, at most, where times are not known: small ink in other units has more."""
     swings: int = 5
     """Legs of a scribble: a pen that erases goes there and back at least twice."""
     dense: float = 1.0
@@ -67,6 +69,8 @@ def gestures(ink: Ink, rule: GestureRule = GESTURES) -> list[GestureKind | None]
         return found
     sizes = np.array([diagonal(stroke.points) for stroke in ink])
     tiny = dots(ink, sizes, rule)
+    if len(ink) == 1:
+        return ["tap" if tiny[0] else None]
     boxes = shapely.box(*np.array([_box(stroke) for stroke in ink]).T)
     tree = shapely.STRtree(boxes)
     for index, stroke in enumerate(ink):
@@ -88,10 +92,12 @@ def gestures(ink: Ink, rule: GestureRule = GESTURES) -> list[GestureKind | None]
 
 def dots(ink: Ink, sizes: FloatArray, rule: GestureRule = GESTURES) -> NDArray[np.bool_]:
     """Which strokes are dots, (n,); sizes (n,) page units are the strokes' diagonals."""
-    quick = np.array([_seconds(stroke) <= rule.dot_time for stroke in ink])
     still = sizes == 0
     if len(ink) == 1:
-        return still | (quick & (sizes <= rule.lone_size) & (len(ink[0]) <= rule.lone_points))
+        lasted = _seconds(ink[0])
+        brief = len(ink[0]) <= rule.lone_points if lasted is None else lasted <= rule.lone_time
+        return still | ((sizes <= rule.lone_size) & brief)
+    quick = np.array([(_seconds(stroke) or 0.0) <= rule.dot_time for stroke in ink])
     drawn = sizes[~still]
     if len(drawn) == 0:
         return still
@@ -127,8 +133,8 @@ def is_lasso(stroke: Stroke, earlier: list[Stroke], rule: GestureRule = GESTURES
     )
 
 
-def _seconds(stroke: Stroke) -> float:
-    return float(stroke.times[-1] - stroke.times[0]) if stroke.times is not None else 0.0
+def _seconds(stroke: Stroke) -> float | None:
+    return None if stroke.times is None else float(stroke.times[-1] - stroke.times[0])
 
 
 def _box(stroke: Stroke) -> FloatArray:

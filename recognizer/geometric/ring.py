@@ -23,6 +23,8 @@ class RingRule:
     a turn to spare, while the loop of a 6 or a 9 leaves more than that outside."""
     patience: float = 0.1
     """Path cut away must bring the ends nearer by a tenth of its length, or it is left on."""
+    open: float = 0.5
+    """Ends this far apart close nothing: half a circle's do. It spares most strokes the rest."""
     points: int = 48
     """Points of the ring, closed: a circle's sagitta between them is 0.2 % of its radius."""
     coarse: int = 16
@@ -59,8 +61,11 @@ class Ring:
 
 def ring(path: FloatArray, rule: RingRule = RING) -> Ring | None:
     """The closed outline within a path of equally spaced points (n, 2); None where nothing is
-    enclosed."""
+    enclosed, or the ends stay apart."""
     first, last = closing_points(path, rule)
+    gap = float(np.hypot(*(path[first] - path[last])))
+    if gap > rule.open:
+        return None
     outline = path[first : last + 1]
     closed = resample(np.concatenate([outline, outline[:1]]), rule.points + 1)
     closed[-1] = closed[0]
@@ -73,15 +78,16 @@ def ring(path: FloatArray, rule: RingRule = RING) -> Ring | None:
     if spread[0] <= 1e-9 * spread[1]:
         return None
     rays = closed[:-1] - centre
-    radii = np.sqrt(np.einsum("ij,jk,ik->i", rays, np.linalg.inv(moments), rays))
-    begun = np.roll(closed[:-1], -int(np.argmax(radii)), axis=0)
+    radii = np.sqrt(((rays @ np.linalg.inv(moments)) * rays).sum(axis=1))
+    corner = int(np.argmax(radii))
+    begun = np.concatenate([closed[corner:-1], closed[: corner + 1]])
     bends = turning(np.concatenate([(coarse := closed[:: rule.points // rule.coarse]), coarse[1:2]]))
     sense = np.sign(bends.sum())
     return Ring(
-        points=np.concatenate([begun, begun[:1]]),
+        points=begun,
         first=first,
         last=last,
-        gap=float(np.hypot(*(path[first] - path[last]))),
+        gap=gap,
         loose=_stray(path, first, last),
         area=area,
         roundness=float(radii.std() / radii.mean()),
@@ -109,13 +115,13 @@ def area_moments(vertices: FloatArray) -> tuple[FloatArray, FloatArray]:
     any affine map, whatever the spacing of the vertices."""
     origin = vertices.mean(axis=0)
     here = vertices - origin
-    there = np.roll(here, -1, axis=0)
+    there = np.concatenate([here[1:], here[:1]])
     cross = here[:, 0] * there[:, 1] - here[:, 1] * there[:, 0]
     area = 0.5 * cross.sum()
-    centre = ((here + there) * cross[:, None]).sum(axis=0) / (6 * area)
-    weighted = np.einsum("i,ij,ik->jk", cross, here, here) + np.einsum("i,ij,ik->jk", cross, there, there)
-    mixed = np.einsum("i,ij,ik->jk", cross, here, there)
-    second = (weighted + 0.5 * (mixed + mixed.T)) / (12 * area)
+    centre = cross @ (here + there) / (6 * area)
+    mixed = (here * cross[:, None]).T @ there
+    squares = (here * cross[:, None]).T @ here + (there * cross[:, None]).T @ there
+    second = (squares + 0.5 * (mixed + mixed.T)) / (12 * area)
     return centre + origin, second - np.outer(centre, centre)
 
 

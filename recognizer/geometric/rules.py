@@ -57,6 +57,8 @@ class Rules:
     round: Bound = Bound(0.13, 0.02)
     """Spread of a circle's radii. A careful square has 0.11 with no wobble at all, but that is for
     `rounder` to see; beyond it is neither."""
+    lobed: Bound = Bound(0.1, 0.015)
+    """The same for a lasso: thrown about things, it follows nothing."""
     thin: Bound = Bound(0.25, 0.04)
     """Smaller over larger axis of a circle. An ellipse of 3:1 was meant as a circle seen at an
     angle, one of 5:1 is a slip of a line."""
@@ -83,6 +85,11 @@ class Rules:
     """A spring's teeth lead onward; loops drawn in place wander back half of their way."""
     tooth: Bound = Bound(0.2, 0.05)
     """Height of a leg over its pitch: below it a wave on a wire, at 1 a tooth of 45°."""
+    dense: Bound = Bound(0.125, 0.02)
+    """A leg's pitch over its height: teeth an eighth as wide as high cover the page as a scribble does,
+    a spring's are a third and more."""
+    rubs: Bound = Bound(5.5, 0.25)
+    """Legs of a scribble: there and back three times."""
     apart: Bound = Bound(0.15, 0.03)
     """Distance between a spring's ends: it goes from somewhere to somewhere else."""
     straight: Bound = Bound(0.03, 0.006)
@@ -97,9 +104,9 @@ class Rules:
     barb: Bound = Bound(0.06, 0.015)
     """Reach of an arrow's head to either side, in shafts: barbs of a fifth of the shaft at 30° reach
     0.1 on both sides, a check mark reaches to one side only."""
-    spread: Bound = Bound(0.5, 0.05)
-    """Reach to the greater side: a barb of half the shaft at 45° reaches 0.35; the second arm of an x
-    reaches 0.7 from the first."""
+    spread: Bound = Bound(0.42, 0.03)
+    """Reach to the greater side: a barb of half the shaft at 45° reaches 0.35, the second arm of an x
+    0.5."""
     barbs_even: Bound = Bound(0.25, 0.06)
     """Lesser over greater reach: the pen may have started the head at either barb, but has two."""
     fallback: Bound = Bound(0.85, 0.06)
@@ -121,7 +128,7 @@ RULES = Rules()
 def evidence(path: FloatArray, rules: Rules = RULES) -> FloatArray:
     """Logarithm of the belief in each of `STROKE_KINDS` for a unit path of at least two points, (9,).
 
-    Scribbles, lassos and taps depend on what else is on the page: they get `rules.never` here.
+    A tap depends on what else is on the page: it gets `rules.never` here.
     """
     points = resample(path, rules.points)
     outline = ring(points)
@@ -129,16 +136,18 @@ def evidence(path: FloatArray, rules: Rules = RULES) -> FloatArray:
     beliefs: dict[StrokeKind, float] = {
         "spring": spring_evidence(points, found, rules),
         "wire": wire_evidence(points, found, rules),
-        "arrow": max(arrow_evidence(points, rules), arrow_evidence(points[::-1], rules)),
+        "scribble": scribble_evidence(found, rules),
         "math": rules.otherwise,
     }
+    if beliefs["wire"] < rules.otherwise:
+        beliefs["arrow"] = max(arrow_evidence(points, rules), arrow_evidence(points[::-1], rules))
     if outline is not None:
         beliefs |= outline_evidence(outline, rules)
     return np.array([max(beliefs.get(kind, rules.never), rules.never) for kind in STROKE_KINDS])
 
 
 def outline_evidence(outline: Ring, rules: Rules = RULES) -> dict[StrokeKind, float]:
-    """Beliefs in circle and polygon."""
+    """Beliefs in circle, polygon and lasso: a loop that is neither."""
     closed = (
         rules.gap.below(outline.gap)
         + rules.loose.below(outline.loose)
@@ -146,7 +155,7 @@ def outline_evidence(outline: Ring, rules: Rules = RULES) -> dict[StrokeKind, fl
         + rules.wrong_way.below(outline.wrong_way)
     )
     if closed < rules.otherwise - 3:  # neither, whatever the sides: spare the search for them
-        return {"circle": closed, "polygon": closed}
+        return {"circle": closed, "polygon": closed, "lasso": closed}
     sides, distance, wrong_way = best_polygon(outline, rules)
     costly = distance * rules.side_costs[sides - 3]
     ratio = log((outline.roundness * outline.radius + 1e-4) / (costly + 1e-4))
@@ -159,7 +168,8 @@ def outline_evidence(outline: Ring, rules: Rules = RULES) -> dict[StrokeKind, fl
         + rules.convex.below(wrong_way)
         + rules.sliver.above(outline.aspect)
     )
-    return {"circle": closed + circle, "polygon": closed + polygon}
+    loop = rules.lobed.above(outline.roundness) + rules.polygonal.above(distance) - rules.rounder.width
+    return {"circle": closed + circle, "polygon": closed + polygon, "lasso": closed + loop}
 
 
 def best_polygon(outline: Ring, rules: Rules = RULES) -> tuple[int, float, float]:
@@ -184,7 +194,13 @@ def spring_evidence(points: FloatArray, found: Teeth, rules: Rules = RULES) -> f
         + rules.progress.above(found.progress)
         + rules.tooth.above(found.height / max(found.pitch, 1e-6))
         + rules.apart.above(float(np.hypot(*(points[-1] - points[0]))))
+        + rules.dense.above(found.pitch / max(found.height, 1e-6))
     )
+
+
+def scribble_evidence(found: Teeth, rules: Rules = RULES) -> float:
+    """Belief in a scribble: to and fro over the same ground."""
+    return rules.rubs.above(found.legs) + rules.dense.below(found.pitch / max(found.height, 1e-6))
 
 
 def wire_evidence(points: FloatArray, found: Teeth, rules: Rules = RULES) -> float:
@@ -214,7 +230,8 @@ def arrow_evidence(points: FloatArray, rules: Rules = RULES) -> float:
 
 def rms_from_line(points: FloatArray) -> float:
     """Root mean square distance of points (n, 2) from their best line."""
-    scatter = np.cov(points.T, bias=True)
+    centred = points - points.mean(axis=0)
+    scatter = centred.T @ centred / len(points)
     half = 0.5 * (scatter[0, 0] + scatter[1, 1])
     lesser = half - np.hypot(0.5 * (scatter[0, 0] - scatter[1, 1]), scatter[0, 1])
     return float(np.sqrt(max(lesser, 0.0)))

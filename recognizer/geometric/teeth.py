@@ -7,6 +7,9 @@ and moves on. Frame: equally spaced points of a path whose bounding box has a di
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
+from math import sqrt
+from statistics import fmean
 
 import numpy as np
 
@@ -22,6 +25,8 @@ class TeethRule:
     end of a lead."""
     visible: float = 0.03
     """A width below this share of the size is a wire drawn by a trembling hand."""
+    chord: float = 0.3
+    """Ends this far apart, as a share of the size, give a direction worth trying as the axis."""
     whole: float = 0.5
     """A leg counts where it is half as high as the middle one: leads and half teeth do not."""
 
@@ -74,11 +79,12 @@ def swings(across: FloatArray, least: float) -> list[int]:
 
 
 def _axes(path: FloatArray) -> list[FloatArray]:
+    centred = path - path.mean(axis=0)
+    _, directions = np.linalg.eigh(centred.T @ centred)
     chord = path[-1] - path[0]
     length = float(np.hypot(*chord))
-    _, directions = np.linalg.eigh(np.cov(path.T))
     axes = [directions[:, 0], directions[:, 1]]
-    return [chord / length, *axes] if length > 0.3 else axes
+    return [chord / length, *axes] if length > TEETH.chord else axes
 
 
 def _merit(found: Teeth) -> float:
@@ -91,20 +97,34 @@ def _about(path: FloatArray, axis: FloatArray, rule: TeethRule) -> Teeth:
     if width < rule.visible:
         return Teeth(axis, 1, 0.0, 1.0, 1.0, width)
     turns = swings(across, rule.swing * width)
-    along = (path @ axis)[turns]
-    heights = np.abs(np.diff(across[turns]))
-    typical = float(np.median(heights))
-    whole = heights[heights > rule.whole * typical]
+    along = (path[turns] @ axis).tolist()
+    sides = across[turns].tolist()
+    heights = sorted(abs(b - a) for a, b in pairwise(sides))
+    typical = _median(heights)
+    whole = [height for height in heights if height > rule.whole * typical]
+    inner = along[1:-1]
     return Teeth(
         axis=axis,
         legs=len(whole),
-        uneven=float(whole.std() / whole.mean()),
-        progress=min(_onward(along[1:-1][0::2]), _onward(along[1:-1][1::2])),
-        pitch=float(abs(along[-1] - along[0])) * 2 / max(len(turns) - 1, 1),
+        uneven=_spread(whole) / fmean(whole),
+        progress=min(_onward(inner[0::2]), _onward(inner[1::2])),
+        pitch=abs(along[-1] - along[0]) * 2 / max(len(turns) - 1, 1),
         height=typical,
     )
 
 
-def _onward(along: FloatArray) -> float:
-    way = np.abs(np.diff(along)).sum()
-    return float(abs(along[-1] - along[0]) / way) if way > 0 else 1.0
+def _onward(along: list[float]) -> float:
+    way = sum(abs(b - a) for a, b in pairwise(along))
+    return abs(along[-1] - along[0]) / way if way > 0 else 1.0
+
+
+def _median(ordered: list[float]) -> float:
+    """The middle of a short sorted list."""
+    half = len(ordered) // 2
+    return ordered[half] if len(ordered) % 2 else 0.5 * (ordered[half - 1] + ordered[half])
+
+
+def _spread(values: list[float]) -> float:
+    """Standard deviation of a short list: numpy would spend longer on its arguments."""
+    mean = fmean(values)
+    return sqrt(fmean([(value - mean) ** 2 for value in values]))

@@ -1,0 +1,55 @@
+"""What a scribble takes away (row P3): the earlier ink that it goes over.
+
+Frame: page units, y down. The strokes stay in the ink; nobody claims them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from sketch.ink import Ink
+from sketch.page import StrokeKind
+
+
+@dataclass(frozen=True, slots=True)
+class EraseRule:
+    """What counts as gone over."""
+
+    hits: int = 3
+    """Crossings of one stroke: a scribble passes to and fro over what it erases."""
+    covered: float = 0.5
+    """Share of a stroke's points within the scribble's hull: a small letter may be crossed once."""
+    latest: int = 64
+    """Latest earlier strokes within a scribble's box that are looked at: more than a formula."""
+
+
+ERASE = EraseRule()
+
+
+def erased(ink: Ink, kinds: Sequence[StrokeKind | None], rule: EraseRule = ERASE) -> set[int]:
+    """Indices of the strokes that later scribbles erase; gestures are not erased."""
+    scribbles = [index for index, kind in enumerate(kinds) if kind == "scribble"]
+    if not scribbles:
+        return set()
+    lines = [shapely.LineString(np.repeat(s.points, 2, axis=0) if len(s) == 1 else s.points) for s in ink]
+    tree = shapely.STRtree(lines)
+    gone: set[int] = set()
+    for scribble in scribbles:
+        near = tree.query(lines[scribble])
+        hull = lines[scribble].convex_hull
+        shapely.prepare(hull)
+        for index in np.sort(near[near < scribble])[-rule.latest :].tolist():
+            if index in gone or kinds[index] in ("scribble", "lasso", "tap"):
+                continue
+            inside = float(shapely.contains_xy(hull, *ink[index].points.T).mean())
+            if inside >= rule.covered or _crossings(lines[scribble], lines[index]) >= rule.hits:
+                gone.add(index)
+    return gone
+
+
+def _crossings(one: shapely.LineString, other: shapely.LineString) -> int:
+    return int(shapely.get_num_geometries(shapely.intersection(one, other)))

@@ -1,0 +1,219 @@
+"""From ink and claims to the page's meaning: a `Sketch`.
+
+The order of disambiguation is row R3's: shapes, then springs, then wires, and what is left is
+mathematics. A shape must enclose an area worth the name; a spring or a wire must end at a shape
+at both ends, or it is its next best claim; a zero among letters is a letter. Frame: page units,
+y down; sizes are compared with the page and with each other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from recognizer.attach import Solids, anchored
+from recognizer.claims import Claim, Recognizer
+from recognizer.erase import erased
+from recognizer.group import boxes_of, letter_height, lines
+from recognizer.parts import Part, arrows, links, shapes
+from sketch.formula.parse import expression
+from sketch.ink import FloatArray, Ink
+from sketch.page import Association, Component, Expression, Gesture, Sketch, StrokeKind
+from sketch.shapes import Circle, Point, Polygon, outline
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """A typed formula: where it stands on the page (None: nowhere in particular) and the spot on a
+    component it was associated with (None: it holds for the whole page), page units. A formula
+    associated with several components is several notes of one text at one place."""
+
+    text: str
+    at: Point | None = None
+    anchor: Point | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class InterpretRule:
+    """What is near enough on a page, and how it is read."""
+
+    note: float = 2.0
+    """Letter heights from a note's place to the ink of its line, at most."""
+    point: float = 0.6
+    """Letter heights from a dot to the writing that it is part of."""
+    row: float = 0.15
+    """Share of the page's height within which two components stand in one row."""
+
+
+RULE = InterpretRule()
+
+
+def interpret(ink: Ink, recognizer: Recognizer, notes: Sequence[Note] = ()) -> Sketch:
+    """The page as the recognizer reads it, with typed formulas beside what was drawn.
+
+    Strokes that the recognizer rejects, and erased ones, belong to nobody. Components are labelled A,
+    B … in reading order; a shape's start and end stay where the pen put them.
+    """
+    claims = recognizer.recognize(ink)
+    gone = erased(ink, [claim.kind for claim in claims])
+    kinds: list[StrokeKind | None] = [
+        None if claim.rejected or index in gone else claim.kind for index, claim in enumerate(claims)
+    ]
+    solids, held = links(ink, kinds, shapes(ink, kinds))
+    free = _leftover(kinds, claims, [*solids, *held])
+    marks = arrows(ink, [index for index, kind in free.items() if kind == "arrow"])
+    writing = [index for index, kind in free.items() if kind == "math"]
+    taps = [index for index, kind in enumerate(kinds) if kind == "tap"]
+    tapped, points = _tapped(ink, taps, solids, writing)
+    components = _labelled(solids, held, marks, [tapped.get(tap) for tap in taps])
+    expressions, associations = _written(ink, lines(ink, sorted([*writing, *points])), notes, components)
+    gestures = [Gesture("tap", tap) for tap in taps if tap not in points]
+    for index, kind in enumerate(kinds):
+        if kind == "scribble" or kind == "lasso":
+            gestures.append(Gesture(kind, index))
+    gestures.sort(key=lambda gesture: gesture.stroke)
+    return Sketch(ink, components, expressions, associations, tuple(gestures))
+
+
+def notes_of(sketch: Sketch) -> tuple[Note, ...]:
+    """The formulas of a page, as if typed beside it: one note for each association, and one for each
+    formula without any."""
+    anchors: dict[int, list[Point]] = {}
+    for association in sketch.associations:
+        anchors.setdefault(association.expression, []).append(association.anchor)
+    return tuple(
+        Note(written.text, written.at, anchor)
+        for index, written in enumerate(sketch.expressions)
+        if written.text is not None
+        for anchor in anchors.get(index, [None])
+    )
+
+
+def _leftover(
+    kinds: Sequence[StrokeKind | None], claims: Sequence[Claim], parts: Sequence[Part]
+) -> dict[int, StrokeKind]:
+    """Arrow or mathematics for each stroke that drew no solid and no link: what its claim prefers."""
+    used = {stroke for part in parts for stroke in part.strokes}
+    return {
+        index: "arrow" if claims[index].score("arrow") > claims[index].score("math") else "math"
+        for index, kind in enumerate(kinds)
+        if kind in ("circle", "polygon", "spring", "wire", "arrow", "math") and index not in used
+    }
+
+
+def _tapped(
+    ink: Ink, taps: Sequence[int], solids: Sequence[Part], writing: Sequence[int]
+) -> tuple[dict[int, int], set[int]]:
+    """Which solid (its position) each tap means, and which taps are points of the writing instead: those
+    near it that lie in no solid."""
+    index = Solids([part.shape for part in solids if isinstance(part.shape, Circle | Polygon)])
+    boxes = boxes_of(ink, writing)
+    reach = RULE.point * letter_height(boxes) if len(boxes) else 0.0
+    tapped: dict[int, int] = {}
+    points: set[int] = set()
+    for tap in taps:
+        spot = _point(ink[tap].points.mean(axis=0))
+        inside = bool(near := index.near(spot)) and near[0][0] <= 0
+        if not inside and len(boxes) and _gaps(boxes, spot).min() <= reach:
+            points.add(tap)
+        elif (solid := index.tapped(spot)) is not None:
+            tapped[tap] = solid
+    return tapped, points
+
+
+def _labelled(
+    solids: Sequence[Part], held: Sequence[Part], marks: Sequence[Part], tapped: Sequence[int | None]
+) -> tuple[Component, ...]:
+    """All parts as components, in reading order, which is the order of their labels. A solid that was
+    tapped an odd number of times is fixed."""
+    parts = [*solids, *held, *marks]
+    if not parts:
+        return ()
+    order = reading_order(np.array([outline(part.shape).mean(axis=0) for part in parts]))
+    labels = {position: label(rank) for rank, position in enumerate(order)}
+    return tuple(
+        Component(
+            shape=parts[position].shape,
+            strokes=parts[position].strokes,
+            label=labels[position],
+            fixed=position < len(solids) and tapped.count(position) % 2 == 1,
+            ends=(labels[ends[0]], labels[ends[1]]) if (ends := parts[position].ends) else (None, None),
+        )
+        for position in order
+    )
+
+
+def reading_order(centres: FloatArray, rule: InterpretRule = RULE) -> list[int]:
+    """Positions of the centres (n, 2) row by row from the top, each row from the left. A row begins with
+    the highest centre left and holds what lies within `rule.row` of the page's height below it."""
+    height = float(np.ptp(centres[:, 1])) * rule.row
+    row, top = np.zeros(len(centres), dtype=int), -np.inf
+    for position in np.argsort(centres[:, 1], kind="stable").tolist():
+        if centres[position, 1] > top + height:
+            top = float(centres[position, 1])
+            row[position] = row.max() + 1
+        else:
+            row[position] = row.max()
+    return np.lexsort((centres[:, 0], row)).tolist()
+
+
+def label(rank: int) -> str:
+    """A, B … Z, AA, AB … for rank 0, 1 …"""
+    rest, letters = rank + 1, ""
+    while rest:
+        rest, digit = divmod(rest - 1, 26)
+        letters = chr(ord("A") + digit) + letters
+    return letters
+
+
+def _written(
+    ink: Ink, found: Sequence[tuple[int, ...]], notes: Sequence[Note], components: Sequence[Component]
+) -> tuple[tuple[Expression, ...], tuple[Association, ...]]:
+    """The notes as expressions, each with the line of ink it stands at, then the lines that nobody has
+    read; and what the notes' anchors associate them with."""
+    boxes = np.array([_around(ink, line) for line in found]).reshape(-1, 4)
+    strokes = [index for line in found for index in line]
+    reach = RULE.note * letter_height(boxes_of(ink, strokes)) if strokes else 0.0
+    free = set(range(len(found)))
+    expressions: list[Expression] = []
+    associations: list[Association] = []
+    numbers: dict[tuple[str, Point | None], int] = {}
+    for note in notes:
+        key = (note.text, note.at)
+        if key not in numbers:
+            numbers[key] = len(expressions)
+            line = _line_at(boxes, free, note.at, reach)
+            free.discard(-1 if line is None else line)
+            expressions.append(expression(note.text, () if line is None else found[line], note.at))
+        if note.anchor is not None and (meant := anchored(components, note.anchor)) is not None:
+            associations.append(Association(numbers[key], meant.label, note.anchor))
+    for line in sorted(free):
+        left, top, right, bottom = boxes[line].tolist()
+        expressions.append(Expression(None, found[line], ((left + right) / 2, (top + bottom) / 2)))
+    return tuple(expressions), tuple(associations)
+
+
+def _line_at(boxes: FloatArray, free: set[int], at: Point | None, reach: float) -> int | None:
+    """The free line that contains the place or lies nearest to it within reach."""
+    if at is None or not free:
+        return None
+    gaps = _gaps(boxes, at)
+    nearest = min(free, key=lambda line: (gaps[line], line))
+    return nearest if gaps[nearest] <= reach else None
+
+
+def _around(ink: Ink, strokes: Sequence[int]) -> FloatArray:
+    boxes = boxes_of(ink, strokes)
+    return np.concatenate([boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)])
+
+
+def _gaps(boxes: FloatArray, spot: Point) -> FloatArray:
+    """Distance from the spot to each box, 0 within it: (n,)."""
+    outside = np.maximum(np.maximum(boxes[:, :2] - spot, spot - boxes[:, 2:]), 0.0)
+    return np.hypot(outside[:, 0], outside[:, 1])
+
+
+def _point(values: FloatArray) -> Point:
+    return (float(values[0]), float(values[1]))

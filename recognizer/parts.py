@@ -1,0 +1,192 @@
+"""Which strokes become components, in the order of row R3: shapes, then links, then arrows.
+
+Frame: page units, y down. Everything is judged against the page and its neighbours, so that the
+page's scale is no matter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from recognizer.attach import Solids
+from recognizer.fit import fit, joined
+from recognizer.geometric.ring import ring
+from recognizer.geometric.rules import RULES, outline_evidence
+from recognizer.group import boxes_of, chains, letter_height
+from recognizer.preprocess import unit_path
+from sketch.geometry import diagonal, resample, solid_area
+from sketch.ink import Ink, Stroke
+from sketch.page import StrokeKind
+from sketch.shapes import Circle, Polygon, Shape, Solid, Spring, Wire
+
+
+@dataclass(frozen=True, slots=True)
+class PartRule:
+    """What is worth being a component."""
+
+    area: float = 0.015
+    """Side of the smallest square a shape must enclose, as a share of the page's diagonal: 11 units of
+    a page of 600 by 450, the size of a letter."""
+    letter: float = 1.5
+    """A shape up to this many letter heights high that stands in a line of letters is one: capitals
+    and brackets are that much higher than ordinary letters."""
+    beside: float = 1.0
+    """Letter heights to the next letter, at most."""
+    level: float = 0.4
+    """Share of the lesser height in which two letters of a line overlap, at least."""
+    shaft: float = 1.8
+    """An arrow's shaft over a stroke of its head: barbs are at most half as long."""
+    long_link: float = 3.0
+    """Letter heights. A longer link that ends at a small shape says that it is one: no letter does."""
+
+
+PARTS = PartRule()
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A shape with the strokes that draw it; ends: for links, the positions of the solids at its start
+    and its end in the list of solids."""
+
+    shape: Shape
+    strokes: tuple[int, ...]
+    ends: tuple[int, int] | None = None
+
+
+def shapes(ink: Ink, kinds: Sequence[StrokeKind | None], rule: PartRule = PARTS) -> list[Part]:
+    """Circles and polygons that enclose enough: outlines of several strokes first, then those of one."""
+    pieces = [index for index, kind in enumerate(kinds) if kind in ("circle", "polygon", "wire", "math")]
+    left, top, right, bottom = ink.bounds()
+    least = (rule.area * float(np.hypot(right - left, bottom - top))) ** 2
+    found: list[Part] = []
+    used: set[int] = set()
+    for chain in chains(ink, pieces):
+        shape = _outline_of([ink[index] for index in chain], [kinds[index] for index in chain])
+        if shape is not None and solid_area(shape) >= least:
+            found.append(Part(shape, chain))
+            used.update(chain)
+    for index, kind in enumerate(kinds):
+        if index not in used and (kind == "circle" or kind == "polygon"):
+            shape = fit(kind, [ink[index]])
+            if isinstance(shape, Circle | Polygon) and solid_area(shape) >= least:
+                found.append(Part(shape, (index,)))
+    return found
+
+
+def links(
+    ink: Ink, kinds: Sequence[StrokeKind | None], solids: Sequence[Part], rule: PartRule = PARTS
+) -> tuple[list[Part], list[Part]]:
+    """The solids that are no letters, and the springs and wires both of whose ends are attached to two
+    of them: springs first, then wires. A shape is taken for a letter only where no long link says
+    otherwise."""
+    used = {stroke for solid in solids for stroke in solid.strokes}
+    candidates = [
+        Part(shape, (index,))
+        for wanted in ("spring", "wire")
+        for index, kind in enumerate(kinds)
+        if kind == wanted and index not in used and (shape := fit(wanted, [ink[index]])) is not None
+    ]
+    first = attached(candidates, solids)
+    linked = {stroke for link in first for stroke in link.strokes}
+    letters = [
+        index
+        for index, kind in enumerate(kinds)
+        if index not in used | linked and kind in ("math", "wire", "spring")
+    ]
+    kept = _without_letters(ink, solids, first, letters, rule)
+    return kept, attached(candidates, kept)
+
+
+def attached(candidates: Sequence[Part], solids: Sequence[Part]) -> list[Part]:
+    """The links whose two ends are attached, with the positions of the solids they end at."""
+    index = Solids([_solid(part.shape) for part in solids])
+    return [
+        Part(part.shape, part.strokes, ends)
+        for part in candidates
+        if isinstance(part.shape, Spring | Wire) and (ends := index.ends(part.shape)) is not None
+    ]
+
+
+def arrows(ink: Ink, strokes: Sequence[int], rule: PartRule = PARTS) -> list[Part]:
+    """Arrows from the strokes claimed for them: a stroke that meets a much larger one is of its head."""
+    if not strokes:
+        return []
+    sizes = np.array([diagonal(ink[index].points) for index in strokes])
+    boxes = shapely.box(*boxes_of(ink, strokes).T)
+    tree = shapely.STRtree(boxes)
+    shaft_of = list(range(len(strokes)))
+    for position in range(len(strokes)):
+        meeting = tree.query(boxes[position])
+        largest = int(meeting[np.argmax(sizes[meeting])])
+        if sizes[largest] > rule.shaft * sizes[position]:
+            shaft_of[position] = largest
+    drawn: dict[int, list[int]] = {}
+    for position, shaft in enumerate(shaft_of):
+        drawn.setdefault(shaft_of[shaft] if shaft_of[shaft] == shaft else position, []).append(position)
+    found: list[Part] = []
+    for members in drawn.values():
+        shape = fit("arrow", [ink[strokes[position]] for position in members])
+        if shape is not None:
+            found.append(Part(shape, tuple(strokes[position] for position in members)))
+    return found
+
+
+def _outline_of(strokes: list[Stroke], kinds: list[StrokeKind | None]) -> Solid | None:
+    """What several strokes outline together: what one of them was claimed for, else what fits better;
+    None where they outline nothing well."""
+    path = joined(strokes)
+    named = next((kind for kind in kinds if kind in ("circle", "polygon")), None)
+    if named is None:
+        outline = ring(resample(unit_path(Stroke(path)), RULES.points)) if diagonal(path) > 0 else None
+        if outline is None:
+            return None
+        beliefs = outline_evidence(outline)
+        named = max(beliefs, key=lambda kind: beliefs[kind])
+        if beliefs[named] < RULES.otherwise:
+            return None
+    shape = fit("circle" if named == "circle" else "polygon", [Stroke(path)])
+    return shape if isinstance(shape, Circle | Polygon) else None
+
+
+def _without_letters(
+    ink: Ink, solids: Sequence[Part], found: Sequence[Part], letters: Sequence[int], rule: PartRule
+) -> list[Part]:
+    """The solids without those that are as small as the letters beside them."""
+    if not letters:
+        return list(solids)
+    boxes = boxes_of(ink, letters)
+    height = letter_height(boxes)
+    tree = shapely.STRtree(shapely.box(*boxes.T))
+    held = {
+        end for link in found if _length(link.shape) >= rule.long_link * height for end in link.ends or ()
+    }
+    kept: list[Part] = []
+    for position, part in enumerate(solids):
+        own = boxes_of(ink, part.strokes)
+        left, top, right, bottom = *own[:, :2].min(axis=0), *own[:, 2:].max(axis=0)
+        tall = bottom - top
+        if position in held or max(tall, right - left) > rule.letter * height:
+            kept.append(part)
+            continue
+        reach = rule.beside * height
+        near = boxes[tree.query(shapely.box(left - reach, top, right + reach, bottom))]
+        level = np.minimum(near[:, 3], bottom) - np.maximum(near[:, 1], top)
+        if not (level >= rule.level * np.minimum(near[:, 3] - near[:, 1], tall)).any():
+            kept.append(part)
+    return kept
+
+
+def _length(shape: Shape) -> float:
+    if isinstance(shape, Spring | Wire):
+        return float(np.hypot(shape.end[0] - shape.start[0], shape.end[1] - shape.start[1]))
+    return 0.0
+
+
+def _solid(shape: Shape) -> Solid:
+    if not isinstance(shape, Circle | Polygon):
+        raise TypeError(f"a {type(shape).__name__.lower()} is no solid")
+    return shape
