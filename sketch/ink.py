@@ -78,9 +78,9 @@ class Stroke:
         object.__setattr__(self, "times", _channel(times, "times", len(checked)))
         object.__setattr__(self, "pressure", _channel(pressure, "pressure", len(checked)))
         if self.times is not None and len(self.times) > 1:
-            steps = np.diff(self.times)
-            if (steps < 0).any():
-                at = int(np.argmax(steps < 0)) + 1
+            backwards = self.times[1:] < self.times[:-1]
+            if backwards.any():
+                at = int(np.argmax(backwards)) + 1
                 raise InkError(
                     f"time runs backwards at point {at}: {self.times[at]:g} s after {self.times[at - 1]:g} s; "
                     "times must not decrease (leave them out if they are not known)"

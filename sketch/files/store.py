@@ -26,6 +26,14 @@ def read_text(path: str | Path) -> str:
 
     Raises FileError when there is none, or it is no text, no gzip, or too large.
     """
+    try:
+        return read_bytes(path).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FileError(path, "is not UTF-8 text", f"byte {error.start}") from None
+
+
+def read_bytes(path: str | Path) -> bytes:
+    """What a file holds, unpacked when its name ends in .gz. Raises FileError as `read_text` does."""
     file = Path(path)
     try:
         raw = gzip.open(file) if file.suffix == ".gz" else file.open("rb")  # noqa: SIM115  (closed below)
@@ -37,10 +45,7 @@ def read_text(path: str | Path) -> str:
         raise FileError(file, f"cannot be read: {error}") from None
     if len(data) > LIMITS.size:
         raise FileError(file, f"is larger than the {LIMITS.size} bytes that are read; split it")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise FileError(file, "is not UTF-8 text", f"byte {error.start}") from None
+    return data
 
 
 def write_text(path: str | Path, text: str) -> None:
