@@ -14,14 +14,18 @@ from sketch.shapes import Circle, Point, Polygon, Solid
 
 def distinct(points: FloatArray, tolerance: float = 0.0) -> FloatArray:
     """The path without points that lie within `tolerance` of the one before; (m, 2), m >= 1."""
-    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    return points[np.concatenate([[True], steps > tolerance])]
+    steps = points[1:] - points[:-1]
+    kept = np.ones(len(points), dtype=bool)
+    kept[1:] = np.hypot(steps[:, 0], steps[:, 1]) > tolerance
+    return points[kept]
 
 
 def arc_lengths(points: FloatArray) -> FloatArray:
     """Distance travelled from the first point to each point, (n,)."""
-    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    return np.concatenate([[0.0], np.cumsum(steps)])
+    steps = points[1:] - points[:-1]
+    travelled = np.zeros(len(points))
+    np.cumsum(np.hypot(steps[:, 0], steps[:, 1]), out=travelled[1:])
+    return travelled
 
 
 def path_length(points: FloatArray) -> float:
@@ -37,8 +41,12 @@ def resample(points: FloatArray, count: int) -> FloatArray:
     travelled = arc_lengths(points)
     if travelled[-1] == 0:
         return np.repeat(points[:1], count, axis=0)
-    wanted = np.linspace(0.0, travelled[-1], count)
-    return np.column_stack([np.interp(wanted, travelled, points[:, axis]) for axis in (0, 1)])
+    wanted = np.arange(count) * (travelled[-1] / (count - 1))
+    even = np.empty((count, 2))
+    even[:, 0] = np.interp(wanted, travelled, points[:, 0])
+    even[:, 1] = np.interp(wanted, travelled, points[:, 1])
+    even[-1] = points[-1]
+    return even
 
 
 def turning(points: FloatArray) -> FloatArray:

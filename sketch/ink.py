@@ -67,9 +67,9 @@ class Stroke:
             raise InkError("a stroke without points; it needs at least one")
         if len(checked) > LIMITS.points:
             raise InkError(f"a stroke of {len(checked)} points; at most {LIMITS.points} are accepted")
-        far = np.abs(checked).max(axis=1) > LIMITS.coordinate
+        far = np.abs(checked) > LIMITS.coordinate
         if far.any():
-            at = int(np.argmax(far))
+            at = int(np.argwhere(far)[0][0])
             raise InkError(
                 f"point {at} lies at ({checked[at, 0]:g}, {checked[at, 1]:g}); "
                 f"coordinates beyond ±{LIMITS.coordinate:g} are not accepted"
@@ -171,8 +171,8 @@ def _numbers(values: ArrayLike, name: str) -> FloatArray:
         array = readonly(values)
     except (TypeError, ValueError, OverflowError) as error:
         raise InkError(f"{name} must be numbers in a regular array: {error}") from None
-    bad = ~np.isfinite(array)
-    if bad.any():
-        at = int(np.argwhere(bad)[0][0])
+    finite = np.isfinite(array)
+    if not finite.all():
+        at = int(np.argwhere(~finite)[0][0])
         raise InkError(f"{name} {at} is not a finite number; NaN and infinity are not accepted")
     return array
