@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
@@ -15,4 +17,5 @@ def temperature(logits: NDArray[np.float32], kind: NDArray[np.int64]) -> float:
         scores = log_softmax(logits.astype(np.float64) / np.exp(log_t), axis=1)
         return float(-scores[np.arange(len(kind)), kind].mean())
 
-    return float(np.exp(minimize_scalar(loss, bounds=(-2.0, 2.0), method="bounded").x))
+    best: Any = minimize_scalar(loss, bounds=(-2.0, 2.0), method="bounded")
+    return float(np.exp(best.x))

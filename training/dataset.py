@@ -6,8 +6,9 @@ so that the same (seed, count) gives the same arrays whatever the number of proc
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 from joblib import Parallel, delayed
@@ -70,7 +71,8 @@ def make_corpus(
     tasks = (delayed(_shard)(seed, first, min(CORPUS_RULE.shard, count - first)) for first in firsts)
     parts: list[Corpus] = []
     done = 0
-    for part in Parallel(n_jobs=jobs, return_as="generator")(tasks):
+    made = cast("Iterable[Corpus]", Parallel(n_jobs=jobs, return_as="generator")(tasks))
+    for part in made:
         parts.append(part)
         done += len(part.kind)
         progress(done)

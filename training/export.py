@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import warnings
 from pathlib import Path
 
@@ -35,7 +34,6 @@ def export(net: StrokeNet, temperature: float, target: Path, metadata: dict[str,
         torch.zeros(2, len(SEQUENCE_CHANNELS), POINTS),
         torch.zeros(2, len(GLOBAL_FEATURES) + len(PAGE_FEATURES)),
     )
-    buffer = io.BytesIO()
     batch = torch.export.Dim("batch")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the exporter's own deprecation chatter
@@ -50,8 +48,7 @@ def export(net: StrokeNet, temperature: float, target: Path, metadata: dict[str,
             verbose=False,
         )
     assert program is not None
-    program.save(buffer)
-    model = onnx.load_from_string(buffer.getvalue())
+    model = onnx.load_from_string(program.model_proto.SerializeToString())
     # The exporter notes where each operator came from, machine paths included: not for shipping.
     for node in model.graph.node:
         del node.metadata_props[:]
