@@ -16,7 +16,6 @@ from typing import assert_never
 import numpy as np
 
 from recognizer.geometric.arrows import head
-from recognizer.geometric.legs import best_legs
 from recognizer.geometric.ring import Ring, closing_points, ring
 from recognizer.geometric.rules import best_polygon
 from recognizer.geometric.teeth import teeth
@@ -169,8 +168,7 @@ def fit_arrow(strokes: list[Stroke]) -> Arrow | None:
 
 def _side_corners(outline: Ring) -> FloatArray:
     """Corners of the best polygon: lines fitted to its sides, intersected with their neighbours."""
-    sides, _, _ = best_polygon(outline)
-    breaks = best_legs(outline.points, sides).breaks(sides)
+    breaks, _ = best_polygon(outline)
     lines = [_line(outline.points[a : b + 1]) for a, b in pairwise(breaks)]
     corners = [
         _meeting(before, after, outline.points[at])

@@ -108,16 +108,17 @@ def _joints(ends: FloatArray, sizes: FloatArray, rule: GroupRule) -> list[tuple[
     2i + 1 are stroke i's. A stroke whose own ends meet is an outline by itself and joins nothing."""
     if len(ends) < 4:
         return []
-    own = np.linalg.norm(ends[0::2] - ends[1::2], axis=1)
+    own = np.hypot(*np.transpose(ends[0::2] - ends[1::2])).tolist()
     count = min(rule.neighbours + 1, len(ends))
-    away, near = KDTree(ends).query(ends, k=count)
+    found = KDTree(ends).query(ends, k=count)
+    away, near = np.asarray(found[0]), np.asarray(found[1])
     joints: list[tuple[float, int, int]] = []
     for end in range(len(ends)):
         for gap, other in zip(away[end].tolist(), near[end].tolist(), strict=True):
             i, j = end // 2, other // 2
             shorter, longer = sorted((float(sizes[i]), float(sizes[j])))
             reach = rule.joint[0] * shorter + rule.joint[1] * longer
-            if end < other and i != j and gap <= min(reach, float(own[i]), float(own[j])):
+            if end < other and i != j and gap <= min(reach, own[i], own[j]):
                 joints.append((gap, end, other))
     return sorted(joints)
 

@@ -31,6 +31,9 @@ class PartRule:
     area: float = 0.015
     """Side of the smallest square a shape must enclose, as a share of the page's diagonal: 11 units of
     a page of 600 by 450, the size of a letter."""
+    pieced: float = -4.5
+    """Logarithm of the belief, at least, in an outline whose strokes were found to close: the corners of
+    one drawn in pieces stand over, and that it closes is evidence enough."""
     letter: float = 1.5
     """A shape up to this many letter heights high that stands in a line of letters is one: capitals
     and brackets are that much higher than ordinary letters."""
@@ -146,7 +149,7 @@ def _outline_of(strokes: list[Stroke], kinds: list[StrokeKind | None]) -> Solid 
             return None
         beliefs = outline_evidence(outline)
         named = max(beliefs, key=lambda kind: beliefs[kind])
-        if beliefs[named] < RULES.otherwise:
+        if beliefs[named] < PARTS.pieced:
             return None
     shape = fit("circle" if named == "circle" else "polygon", [Stroke(path)])
     return shape if isinstance(shape, Circle | Polygon) else None

@@ -18,7 +18,7 @@ from recognizer.geometric.legs import best_legs
 from recognizer.geometric.ring import Ring, ring
 from recognizer.geometric.teeth import Teeth, teeth
 from recognizer.preprocess import spaced
-from sketch.geometry import path_length, resample
+from sketch.geometry import path_length, resample, turning
 from sketch.ink import FloatArray
 from sketch.page import STROKE_KINDS, StrokeKind
 
@@ -68,9 +68,18 @@ class Rules:
     """Factor on the distance from the best triangle, quadrilateral, pentagon, hexagon: more sides
     follow any outline more closely, a circle's distance falls as 1 / sides²; these leave a third of
     that fall to be earned."""
+    hand: float = 0.005
+    """Distance, rms, that a careful hand wavers by: no side is earned by following it."""
     polygonal: Bound = Bound(0.025, 0.005)
     """Distance from the best polygon, rms. Bowed sides and rounded corners have 0.01; a circle has
     0.031 from its best square."""
+    cornered: Bound = Bound(0.85, 0.03)
+    """Share of an outline's turning that lies at its polygon's corners. A polygon turns there and nowhere
+    else; a circle turns everywhere, 0.63 of it within reach of the corners of its best hexagon, and one
+    begun with a straight stroke 0.8."""
+    corner_reach: int = 2
+    """Points of the outline on either side of a corner that are its rounding: a tenth of a side of a
+    square."""
     convex: Bound = Bound(0.06, 0.02)
     """Share of a polygon's turning in the wrong sense, corners only: a dart (a chevron) has 0.15."""
     simple: float = -2.5
@@ -79,15 +88,15 @@ class Rules:
     """Share of an outline's turning in the wrong sense: a bean has 0.2, wobble 0.05."""
     legs: Bound = Bound(4.5, 0.25)
     """Legs of a spring. An M or a W has four and is a letter: five make two teeth and a half."""
-    uneven: Bound = Bound(0.5, 0.08)
+    uneven: Bound = Bound(0.42, 0.06)
     """Spread of a spring's legs: a hand's teeth differ by a sixth, a brace's strokes by half."""
     progress: Bound = Bound(0.6, 0.08)
     """A spring's teeth lead onward; loops drawn in place wander back half of their way."""
     tooth: Bound = Bound(0.2, 0.05)
-    """Height of a leg over its pitch: below it a wave on a wire, at 1 a tooth of 45°."""
-    dense: Bound = Bound(0.125, 0.02)
-    """A leg's pitch over its height: teeth an eighth as wide as high cover the page as a scribble does,
-    a spring's are a third and more."""
+    """Height of a leg over its tooth's pitch: below it a wave on a wire, at 0.5 a tooth of 45°."""
+    dense: Bound = Bound(0.25, 0.03)
+    """Pitch of the teeth over their height: legs that advance by an eighth of their height cover the
+    page, as a scribble does; a spring's teeth are a third as wide as high, or more."""
     rubs: Bound = Bound(5.5, 0.25)
     """Legs of a scribble: there and back three times."""
     apart: Bound = Bound(0.15, 0.03)
@@ -109,8 +118,9 @@ class Rules:
     0.5."""
     barbs_even: Bound = Bound(0.25, 0.06)
     """Lesser over greater reach: the pen may have started the head at either barb, but has two."""
-    fallback: Bound = Bound(0.85, 0.06)
-    """How far the head falls back, in shafts: to the tail and beyond it is no head."""
+    fallback: Bound = Bound(0.58, 0.04)
+    """How far the head falls back, in shafts: barbs are half a shaft long at most, the second and third
+    stroke of an x go further."""
     barb_turn: Bound = Bound(radians(75), radians(8))
     """The turn into the head: barbs come back at more than a right angle."""
     head_ink: Bound = Bound(2.6, 0.25)
@@ -156,7 +166,8 @@ def outline_evidence(outline: Ring, rules: Rules = RULES) -> dict[StrokeKind, fl
     )
     if closed < rules.otherwise - 3:  # neither, whatever the sides: spare the search for them
         return {"circle": closed, "polygon": closed, "lasso": closed}
-    sides, distance, wrong_way = best_polygon(outline, rules)
+    corners, distance = best_polygon(outline, rules)
+    sides = len(corners) - 1
     costly = distance * rules.side_costs[sides - 3]
     ratio = log((outline.roundness * outline.radius + 1e-4) / (costly + 1e-4))
     circle = (
@@ -165,25 +176,37 @@ def outline_evidence(outline: Ring, rules: Rules = RULES) -> dict[StrokeKind, fl
     polygon = (
         rules.rounder.above(ratio)
         + rules.polygonal.below(distance)
-        + rules.convex.below(wrong_way)
+        + rules.convex.below(wrong_turning(outline.points[corners]))
+        + rules.cornered.above(turning_at(outline, corners, rules.corner_reach))
         + rules.sliver.above(outline.aspect)
     )
     loop = rules.lobed.above(outline.roundness) + rules.polygonal.above(distance) - rules.rounder.width
     return {"circle": closed + circle, "polygon": closed + polygon, "lasso": closed + loop}
 
 
-def best_polygon(outline: Ring, rules: Rules = RULES) -> tuple[int, float, float]:
-    """Number of sides (3 to 6) of the polygon that follows the outline best for its cost, its rms
-    distance, and the share of its corners' turning in the wrong sense."""
+def best_polygon(outline: Ring, rules: Rules = RULES) -> tuple[list[int], float]:
+    """The corners of the polygon of three to six sides that follows the outline best for its cost, as
+    indices of its points, the first repeated as the last; and its rms distance."""
     legs = best_legs(outline.points, 2 + len(rules.side_costs))
     distances = legs.rms[2:]
-    sides = 3 + int(np.argmin(distances * np.array(rules.side_costs)))
-    corners = outline.points[legs.breaks(sides)]
-    steps = np.diff(np.concatenate([corners, corners[1:2]]), axis=0)
-    cross = steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0]
-    turns = np.arctan2(cross, np.einsum("ij,ij->i", steps[:-1], steps[1:]))
+    sides = 3 + int(np.argmin((distances + rules.hand) * np.array(rules.side_costs)))
+    return legs.breaks(sides), float(distances[sides - 3])
+
+
+def wrong_turning(corners: FloatArray) -> float:
+    """Share of the turning at the corners (k, 2), the last equal to the first, that is in the wrong
+    sense: 0 for a convex polygon."""
+    turns = turning(np.concatenate([corners, corners[1:2]]))
     wrong = -(np.sign(turns.sum()) * turns).clip(max=0.0).sum()
-    return sides, float(distances[sides - 3]), float(wrong / (np.abs(turns).sum() + 1e-9))
+    return float(wrong / (np.abs(turns).sum() + 1e-9))
+
+
+def turning_at(outline: Ring, corners: list[int], reach: int) -> float:
+    """Share of the outline's turning that lies within `reach` points of the corners."""
+    points = outline.points
+    turns = turning(np.concatenate([points[-2:-1], points]))
+    near = (np.array(corners)[:, None] + np.arange(-reach, reach + 1)) % len(turns)
+    return float(turns[np.unique(near)].sum() / (turns.sum() or 1.0))
 
 
 def spring_evidence(points: FloatArray, found: Teeth, rules: Rules = RULES) -> float:
