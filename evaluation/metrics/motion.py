@@ -1,0 +1,126 @@
+"""Does the claimed drawing move as the true one does?
+
+Lengths are fractions of the diagram's size (the diagonal of the box around its true components),
+so that 0.01 is hardly seen and 1 is the whole drawing away.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from evaluation.metrics.geometry import diagram_size
+from evaluation.metrics.matching import match_components
+from physics.outcome import Outcome
+from physics.pipeline import Motion
+from physics.trajectory import Energy, Trajectory
+from sketch.geometry import centroid
+from sketch.ink import FloatArray
+from sketch.page import Sketch
+from sketch.shapes import Circle, Polygon
+
+AT = 2.0
+"""Seconds after the start at which positions are compared."""
+WORST = 1.0
+"""The error of a body is capped at the diagram's whole size; a body that is movable on one side and
+has no counterpart on the other has this error."""
+PER_METRE = 100.0
+"""Page units in a metre."""
+
+
+@dataclass(frozen=True, slots=True)
+class MotionError:
+    """error: mean over bodies of the distance between true and claimed position at `at` seconds;
+    0 when nothing is movable on either side. bodies: how many were compared or missed; missed: how
+    many of them have no counterpart."""
+
+    error: float
+    bodies: int
+    missed: int
+
+
+def motion_error(truth: Motion, claim: Motion, at: float = AT) -> MotionError:
+    """Compares the trajectories of all solids that are movable in the truth or in the claim, paired
+    by the strokes that they share. A fixed solid stays where it is drawn."""
+    movable, claimed_movable = _movable(truth.rectified), _movable(claim.rectified)
+    pairs = {
+        a: b
+        for a, b in match_components(truth.rectified, claim.rectified).items()
+        if (a in movable or b in claimed_movable)
+        and _is_solid(truth.rectified, a)
+        and _is_solid(claim.rectified, b)
+    }
+    size = diagram_size(truth.rectified) / PER_METRE
+    errors = [
+        min(WORST, float(np.linalg.norm(_place(claim, b, at) - _place(truth, a, at))) / size)
+        for a, b in pairs.items()
+    ]
+    missed = len(movable - pairs.keys()) + len(claimed_movable - set(pairs.values()))
+    bodies = len(errors) + missed
+    return MotionError((sum(errors) + WORST * missed) / bodies if bodies else 0.0, bodies, missed)
+
+
+def same_outcome(pairs: Mapping[str, str], truth: Outcome, claim: Outcome) -> bool:
+    """Whether every movable body has the same fate and the same links broke; `pairs` says which true
+    label is which claimed one (`match_components`)."""
+
+    def renamed(labels: Collection[str]) -> list[str | None]:
+        return [pairs.get(label) for label in labels]
+
+    fates = dict(zip(renamed(truth.fates), truth.fates.values(), strict=True))
+    return fates == dict(claim.fates) and set(renamed(truth.broken)) == set(claim.broken)
+
+
+def until(motion: Motion, seconds: float) -> Motion:
+    """The motion up to and including `seconds`; the whole of it if it is not longer."""
+    trajectory = motion.trajectory
+    n = int(np.searchsorted(trajectory.times, seconds + 1e-9, side="right"))
+    if n >= len(trajectory.times):
+        return motion
+    energy = trajectory.energy
+    cut = Trajectory(
+        times=trajectory.times[:n],
+        bodies=trajectory.bodies,
+        poses=trajectory.poses[:n],
+        velocities=trajectory.velocities[:n],
+        accelerations=trajectory.accelerations[:n],
+        forces=tuple(
+            replace(force, values=force.values[:n], points=force.points[:n]) for force in trajectory.forces
+        ),
+        events=tuple(event for event in trajectory.events if event.time <= seconds),
+        energy=Energy(
+            energy.kinetic[:n],
+            energy.potential[:n],
+            energy.elastic[:n],
+            energy.dissipated[:n],
+            energy.worked[:n],
+        ),
+        anchors={label: ends[:n] for label, ends in trajectory.anchors.items()},
+    )
+    return replace(motion, trajectory=cut)
+
+
+def _movable(sketch: Sketch) -> set[str]:
+    return {part.label for part in sketch.components if _is_solid(sketch, part.label) and not part.fixed}
+
+
+def _is_solid(sketch: Sketch, label: str) -> bool:
+    return isinstance(sketch.component(label).shape, Circle | Polygon)
+
+
+def _place(motion: Motion, label: str, seconds: float) -> FloatArray:
+    """Where a solid's centre is at that time, (2,) metres, y up."""
+    trajectory, component = motion.trajectory, motion.rectified.component(label)
+    if label in trajectory.bodies and not component.fixed:
+        path = trajectory.path(label)
+        return np.array([np.interp(seconds, trajectory.times, path[:, axis]) for axis in (0, 1)])
+    match component.shape:
+        case Circle(centre, _):
+            x, y = centre
+        case Polygon(vertices=vertices):
+            x, y = centroid(vertices).tolist()
+        case _:
+            raise TypeError(f"{label} is no solid, it has no centre")
+    return np.array([x, -y]) / PER_METRE

@@ -1,0 +1,119 @@
+"""The contest over pages: each recognizer's reading goes through the same correction and the same
+engine, and is compared with the truth by diagram, by geometry and by the motion that results.
+
+The oracle takes part in every contest of pages: told what each stroke is, it shows how much of the
+error is not recognition's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+from evaluation.metrics.diagram import DiagramMatch, diagram_match
+from evaluation.metrics.geometry import GeometryError, geometry_error
+from evaluation.metrics.matching import match_components
+from evaluation.metrics.motion import AT, MotionError, motion_error, same_outcome, until
+from evaluation.parallel import Progress, in_parallel, silent
+from evaluation.suites import PageSuite
+from data_gen.pages import Page
+from physics.outcome import Outcome, outcome
+from physics.pipeline import Motion, move
+from recognizer.claims import Recognizer
+from recognizer.interpret import interpret, notes_of
+from recognizer.oracle import Oracle
+from recognizer.roster import recognizer
+from sketch.page import Sketch, StrokeKind
+
+ORACLE = "oracle"
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A page in one recognizer's hands: what it claims, how that moves, how it moves in the page's own
+    time, and what happens in that time."""
+
+    name: str
+    claim: Sketch
+    motion: Motion
+    shown: Motion
+    outcome: Outcome
+
+
+@dataclass(frozen=True, slots=True)
+class PageScore:
+    """One recognizer on one page. strokes: (truth, claim) kinds after disambiguation; match: of the
+    diagram as read; geometry: of the corrected shapes; same_outcome: whether the same happens until the
+    page's own time is over."""
+
+    problem: str
+    answer: str
+    strokes: tuple[tuple[StrokeKind, StrokeKind | None], ...]
+    match: DiagramMatch
+    geometry: GeometryError
+    motion: MotionError
+    same_outcome: bool
+
+
+@dataclass(frozen=True, slots=True)
+class PageResult:
+    """One recognizer on a suite of pages, a score for each."""
+
+    name: str
+    pages: tuple[PageScore, ...]
+
+
+def page_contest(
+    suite: PageSuite, names: Sequence[str], jobs: int = 1, progress: Progress = silent
+) -> tuple[PageResult, ...]:
+    """Runs the recognizers of these names, and the oracle, over the pages."""
+    rivals = (*names, ORACLE)
+    tasks = [(page, rivals) for page in suite.pages]
+    scored = list(in_parallel(_score_page, tasks, jobs, "Reading and moving pages", progress))
+    return tuple(PageResult(name, tuple(row[k] for row in scored)) for k, name in enumerate(rivals))
+
+
+def true_reading(page: Page) -> Reading:
+    """What truly happens on the page."""
+    return _reading("truth", page.truth, page.seconds)
+
+
+def read_page(page: Page, name: str) -> Reading:
+    """What happens on the page as the recognizer of that name reads it."""
+    rival: Recognizer = Oracle(page.truth) if name == ORACLE else _here(name)
+    return _reading(name, interpret(page.truth.ink, rival, notes_of(page.truth)), page.seconds)
+
+
+def score_page(page: Page, truth: Reading, claim: Reading) -> PageScore:
+    """All metrics of one reading."""
+    pairs = match_components(truth.claim, claim.claim)
+    kinds = zip(page.truth.kinds(), claim.claim.kinds(), strict=True)
+    return PageScore(
+        problem=page.name,
+        answer=page.answer,
+        strokes=tuple((true, claimed) for true, claimed in kinds if true is not None),
+        match=diagram_match(truth.claim, claim.claim),
+        geometry=geometry_error(truth.motion.rectified, claim.motion.rectified),
+        motion=motion_error(truth.motion, claim.motion),
+        same_outcome=same_outcome(pairs, truth.outcome, claim.outcome),
+    )
+
+
+def _score_page(task: tuple[Page, Sequence[str]]) -> list[PageScore]:
+    page, names = task
+    truth = true_reading(page)
+    return [score_page(page, truth, read_page(page, name)) for name in names]
+
+
+def _reading(name: str, claim: Sketch, seconds: float) -> Reading:
+    """Moves a page long enough for the motion error; judges what happens in the page's own time."""
+    motion = move(claim, max(seconds, AT))
+    shown = until(motion, seconds)
+    return Reading(name, claim, motion, shown, outcome(shown))
+
+
+@lru_cache
+def _here(name: str) -> Recognizer:
+    """This process's own recognizer of that name: loaded once."""
+    return recognizer(name)

@@ -1,0 +1,86 @@
+"""The tables of the contest over pages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from evaluation.page_contest import PageResult
+from evaluation.page_scores import PageSummary, by_problem, summarize
+from evaluation.table import Cell, Table, column, table
+
+
+def page_tables(results: Sequence[PageResult]) -> list[Table]:
+    """How pages are read; how well the corrected shapes fit; how they move; the same by diagram."""
+    if not results or not results[0].pages:
+        return []
+    names = [result.name for result in results]
+    totals = [summarize(result.pages) for result in results]
+
+    def cells(of: Callable[[PageSummary], float | None], scale: float = 100, digits: int = 1) -> list[Cell]:
+        return column([of(total) for total in totals], digits, scale)
+
+    def errors(of: Callable[[PageSummary], float | None], scale: float = 100, digits: int = 2) -> list[Cell]:
+        return column([of(total) for total in totals], digits, scale, low=True)
+
+    read = table(
+        f"{totals[0].n} pages as they are read. Shares of pages in %, strokes: share of strokes.",
+        names,
+        {
+            "exact": cells(lambda s: s.exact),
+            "components": cells(lambda s: s.components),
+            "grouping": cells(lambda s: s.grouping),
+            "ends": cells(lambda s: s.ends),
+            "fixed": cells(lambda s: s.fixed),
+            "strokes": cells(lambda s: s.strokes),
+            "strokes, balanced": cells(lambda s: s.strokes_balanced),
+        },
+    )
+    moved = table(
+        "The corrected shapes and their motion. Lengths in % of the diagram's size, angle in degrees.",
+        names,
+        {
+            "same outcome": cells(lambda s: s.same_outcome),
+            "motion error": errors(lambda s: s.motion),
+            "median": errors(lambda s: s.motion_median),
+            "centre": errors(lambda s: s.centre),
+            "radius": errors(lambda s: s.radius),
+            "vertex": errors(lambda s: s.vertex),
+            "angle": errors(lambda s: s.angle, 1),
+            "unread": errors(lambda s: s.unread, 100, 1),
+        },
+    )
+    return [read, moved, _by_problem(results)]
+
+
+def page_notes() -> list[str]:
+    """What the tables mean, in sentences."""
+    return [
+        (
+            "Exact: the right components from the right strokes, hanging on the right things, the right ones fixed. "
+            "Motion error: distance between where bodies should be and where they are at 2 s, mean over bodies; a "
+            "body that was not found, or that should not be there, counts as the whole diagram's size (100 %)."
+        ),
+    ]
+
+
+def _by_problem(results: Sequence[PageResult]) -> Table:
+    """One row a diagram: each recognizer's share of pages with the right outcome, and its motion error."""
+    split = [by_problem(result.pages) for result in results]
+    rows = [
+        (
+            name,
+            Cell(str(split[0][name].n)),
+            *column([each[name].same_outcome for each in split], 0, 100),
+            *column([each[name].motion for each in split], 2, 100, low=True),
+        )
+        for name in split[0]
+    ]
+    head = (
+        "",
+        "n",
+        *(f"{result.name}, %" for result in results),
+        *(f"{result.name}, error" for result in results),
+    )
+    return Table(
+        "By diagram: pages with the right outcome in %, and mean motion error in %.", head, tuple(rows)
+    )

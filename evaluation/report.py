@@ -1,0 +1,155 @@
+"""The report: one HTML file that holds everything it shows, tables, pictures and style."""
+
+from __future__ import annotations
+
+import os
+import platform
+from collections.abc import Sequence
+from datetime import datetime
+from importlib.metadata import version
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from evaluation.contest import Contest
+from evaluation.illustrations import ABOUT, ANSWER_TITLES, Illustration, illustrations
+from evaluation.page_tables import page_notes, page_tables
+from evaluation.parallel import Progress, silent
+from evaluation.stroke_contest import StrokeResult
+from evaluation.tables import recall_table, stroke_notes, stroke_table
+from sketch.page import STROKE_KINDS
+
+LIBRARIES = ("inklined", "numpy", "scipy", "sympy", "scikit-learn", "onnxruntime")
+
+
+def report(contest: Contest, command: str, jobs: int = 1, progress: Progress = silent) -> str:
+    """HTML of a contest; `command` is what was run, as a person types it. On generated ink with
+    pages it draws every diagram in every recognizer's hands."""
+    drawn = (
+        illustrations(contest.seed, contest.names, jobs, progress)
+        if contest.seed is not None and contest.pages
+        else []
+    )
+    environment = Environment(
+        loader=PackageLoader("evaluation"), autoescape=True, undefined=StrictUndefined, trim_blocks=True
+    )
+    loaded = environment.loader
+    assert loaded is not None
+    style = loaded.get_source(environment, "report.css")[0]
+    return environment.get_template("report.html.j2").render(
+        title=", ".join(contest.names),
+        lead=_lead(contest),
+        style=Markup(style),
+        facts=_facts(contest, command),
+        strokes=_strokes(contest) if contest.stroke_results else None,
+        pages=_pages(contest) if contest.page_results else None,
+        problems=_problems(drawn),
+        footer="Made by inklined. Everything shown is in this file; it loads nothing.",
+    )
+
+
+def _lead(contest: Contest) -> str:
+    rivals = ", ".join(contest.names)
+    if contest.pages is None:
+        return f"{rivals}: the same labelled ink, stroke by stroke."
+    return (
+        f"{rivals}: the same ink, one shared back end. Recognizers are compared by the strokes that they name, by "
+        "the diagrams that they read, and by what matters to a person: does the drawing move as physics says "
+        "it should?"
+    )
+
+
+def _facts(contest: Contest, command: str) -> list[tuple[str, str]]:
+    suites = [contest.strokes.name, *([contest.pages.name] if contest.pages else [])]
+    seed = [] if contest.seed is None else [("Seed", str(contest.seed))]
+    return [
+        ("Compared on", "; ".join(suites)),
+        *seed,
+        ("Command", command),
+        ("Made", datetime.now().astimezone().strftime("%Y-%m-%d %H:%M")),
+        ("Machine", f"{os.cpu_count()} cores, {platform.machine()}, Python {platform.python_version()}"),
+        ("Versions", ", ".join(f"{name} {version(name)}" for name in LIBRARIES)),
+    ]
+
+
+def _strokes(contest: Contest) -> dict[str, Any]:
+    suite, results = contest.strokes, contest.stroke_results
+    return {
+        "about": "Raw claims, stroke by stroke, before anybody asks whether a wire is attached to anything.",
+        "scores": stroke_table(suite, results),
+        "recalls": recall_table(results),
+        "notes": stroke_notes(suite, results),
+        "confusions": [_confusion(result) for result in results],
+    }
+
+
+def _confusion(result: StrokeResult) -> dict[str, Any]:
+    table = result.scores.confusion
+    shown = [k for k in range(len(STROKE_KINDS)) if table[k].any() or table[:, k].any()]
+
+    def cells(row: int) -> list[dict[str, Any]]:
+        total = int(table[row].sum())
+        shares = [float(table[row, column]) / total for column in shown]
+        return [
+            {
+                "share": f"{share:.3f}",
+                "text": "" if share == 0 else "<1" if share < 0.005 else f"{100 * share:.0f}",
+                "right": column == row,
+                "title": f"{table[row, column]} of {total} {STROKE_KINDS[row]} taken for {STROKE_KINDS[column]}",
+            }
+            for column, share in zip(shown, shares, strict=True)
+        ]
+
+    return {
+        "name": result.name,
+        "columns": [STROKE_KINDS[k] for k in shown],
+        "rows": [{"kind": STROKE_KINDS[k], "cells": cells(k)} for k in shown if table[k].any()],
+    }
+
+
+def _pages(contest: Contest) -> dict[str, Any]:
+    return {
+        "about": (
+            "Whole diagrams: each recognizer's reading is corrected and moved by the same back end and compared "
+            "with the truth. The oracle is told what each stroke is: its row is what the back end costs."
+        ),
+        "tables": page_tables(contest.page_results),
+        "notes": page_notes(),
+    }
+
+
+def _problems(drawn: Sequence[Illustration]) -> list[dict[str, Any]]:
+    problems: list[dict[str, Any]] = []
+    for name in dict.fromkeys(one.problem for one in drawn):
+        title, about = ABOUT.get(name, (name.replace("-", " "), ""))
+        answers = [one for one in drawn if one.problem == name]
+        problems.append(
+            {
+                "anchor": name,
+                "title": title,
+                "about": about,
+                "answers": [_answer(one, len(answers) > 1) for one in answers],
+            }
+        )
+    return problems
+
+
+def _answer(one: Illustration, several: bool) -> dict[str, Any]:
+    return {
+        "title": ANSWER_TITLES.get(one.answer, one.answer) if several else "",
+        "ink": Markup(one.ink),
+        "formulas": one.formulas,
+        "views": [
+            {
+                "name": view.name,
+                "verdict": view.verdict,
+                "same": view.same,
+                "claim": Markup(view.claim),
+                "strip": Markup(view.strip),
+                "graph": Markup(view.graph),
+                "words": view.words,
+            }
+            for view in one.views
+        ],
+    }

@@ -1,0 +1,140 @@
+"""The contest over strokes: every recognizer claims the same strokes, and is scored on them.
+
+Raw claims are compared, before anybody asks whether a wire is attached to anything. What whole
+pages add is `evaluation.page_contest`'s.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations
+
+import numpy as np
+from scipy.stats import binomtest
+
+from evaluation.latency import Latency, latency
+from evaluation.metrics.strokes import StrokeScores, score
+from evaluation.parallel import Progress, in_parallel, silent
+from evaluation.suites import StrokeSuite, claim_of_row
+from recognizer.claims import Claim, Recognizer
+from recognizer.roster import recognizer
+from sketch.ink import Ink
+from sketch.page import STROKE_KINDS, StrokeKind
+
+DIAGRAM_KINDS: tuple[StrokeKind, ...] = ("circle", "polygon", "wire", "spring", "math")
+"""What a diagram is made of: the five kinds of which the published rules speak."""
+BATCH = 200
+"""Pages in one task: some 0.1 s of work, so that progress is seen and little is lost in sending."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StrokeResult:
+    """One recognizer on one suite of strokes.
+
+    scores: over all scored rows; single, several: over rows of one stroke, and of more (a row's
+    claim is then `claim_of_row`); five: over single strokes that truly are of `DIAGRAM_KINDS`;
+    claimable: over rows whose kind this recognizer can claim; unclaimable: the others by label,
+    those that are no stroke kind included; rejected: rows it would rather not have named;
+    right: for each scored row whether its claim is its label.
+    """
+
+    name: str
+    scores: StrokeScores
+    single: StrokeScores
+    several: StrokeScores
+    five: StrokeScores
+    claimable: StrokeScores
+    unclaimable: dict[str, int]
+    rejected: int
+    latency: Latency
+    right: tuple[bool, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Pairing:
+    """Two recognizers on the same rows: how many only the first, and only the second, got right;
+    p: exact two-sided sign test that both err equally often (McNemar's), None without a difference."""
+
+    first: str
+    second: str
+    only_first: int
+    only_second: int
+    p: float | None
+
+
+def stroke_contest(
+    suite: StrokeSuite, names: Sequence[str], jobs: int = 1, progress: Progress = silent
+) -> tuple[StrokeResult, ...]:
+    """Runs the recognizers of these names over the suite, in `jobs` processes, then takes their
+    latency in this one. Raises ValueError for a name that is not known."""
+    for name in names:
+        recognizer(name)
+    claimed = _claims(suite.inks, names, jobs, progress)
+    results: list[StrokeResult] = []
+    for k, name in enumerate(names):
+        progress("Timing recognizers", k, len(names))
+        results.append(_result(suite, recognizer(name), claimed[name]))
+    progress("Timing recognizers", len(names), len(names))
+    return tuple(results)
+
+
+def pairings(results: Sequence[StrokeResult]) -> tuple[Pairing, ...]:
+    """Every two recognizers compared row by row."""
+    return tuple(_pairing(first, second) for first, second in combinations(results, 2))
+
+
+def _claims(
+    inks: Sequence[Ink], names: Sequence[str], jobs: int, progress: Progress
+) -> dict[str, list[Claim]]:
+    tasks = [(name, inks[k : k + BATCH]) for name in names for k in range(0, len(inks), BATCH)]
+    claimed: dict[str, list[Claim]] = {name: [] for name in names}
+    batches = in_parallel(_claim_batch, tasks, jobs, "Recognizing strokes", progress)
+    for (name, _), batch in zip(tasks, batches, strict=True):
+        claimed[name].extend(batch)
+    return claimed
+
+
+def _claim_batch(task: tuple[str, Sequence[Ink]]) -> list[Claim]:
+    name, inks = task
+    rival = _here(name)
+    return [claim_of_row(rival.recognize(ink)) for ink in inks]
+
+
+@lru_cache
+def _here(name: str) -> Recognizer:
+    """This process's own recognizer of that name: loaded once."""
+    return recognizer(name)
+
+
+def _result(suite: StrokeSuite, rival: Recognizer, claims: Sequence[Claim]) -> StrokeResult:
+    labels = suite.labels
+
+    def over(chosen: Sequence[bool]) -> StrokeScores:
+        rows = [k for k, yes in enumerate(chosen) if yes]
+        return score([labels[k] for k in rows], [claims[k] for k in rows])
+
+    claimable = [label in rival.claims for label in labels]
+    beyond = Counter(label for label in labels if label not in rival.claims)
+    return StrokeResult(
+        name=rival.name,
+        scores=score(labels, claims),
+        single=over(suite.single),
+        several=over([not single for single in suite.single]),
+        five=over([s and label in DIAGRAM_KINDS for s, label in zip(suite.single, labels, strict=True)]),
+        claimable=over(claimable),
+        unclaimable={**{kind: beyond[kind] for kind in STROKE_KINDS if beyond[kind]}, **suite.unknown},
+        rejected=sum(claim.rejected for claim in claims),
+        latency=latency(rival, suite.inks),
+        right=tuple(claim.kind == label for claim, label in zip(claims, labels, strict=True)),
+    )
+
+
+def _pairing(first: StrokeResult, second: StrokeResult) -> Pairing:
+    one, other = np.array(first.right, dtype=bool), np.array(second.right, dtype=bool)
+    only_first, only_second = int((one & ~other).sum()), int((other & ~one).sum())
+    differing = only_first + only_second
+    p = float(binomtest(only_first, differing).pvalue) if differing else None
+    return Pairing(first.name, second.name, only_first, only_second, p)

@@ -1,0 +1,101 @@
+"""The contest's figures as plain values, ready for JSON. Shares are fractions; null is "not measured"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Any
+
+from evaluation.contest import Contest
+from evaluation.page_scores import by_problem, summarize
+from evaluation.stroke_contest import DIAGRAM_KINDS, Pairing, StrokeResult, pairings
+from evaluation.metrics.strokes import StrokeScores
+from evaluation.suites import StrokeSuite
+from sketch.page import STROKE_KINDS
+
+Json = dict[str, Any]
+
+
+def contest_summary(contest: Contest) -> Json:
+    """`stroke_summary`, and "pages" where pages were compared: for each recognizer the `PageSummary` over
+    all pages and by problem. "seed" is null for files."""
+    summary = {**stroke_summary(contest.strokes, contest.stroke_results), "seed": contest.seed}
+    if contest.pages is None:
+        return summary
+    pages = {
+        result.name: {
+            **asdict(summarize(result.pages)),
+            "by_problem": {name: asdict(each) for name, each in by_problem(result.pages).items()},
+        }
+        for result in contest.page_results
+    }
+    return {**summary, "pages": {"suite": contest.pages.name, "recognizers": pages}}
+
+
+def stroke_summary(suite: StrokeSuite, results: Sequence[StrokeResult]) -> Json:
+    """suite; rows: in the files or generated; scored: those with a label that is a stroke kind;
+    unknown_labels, unlabelled: the others; notices: what the reader skipped; recognizers: by name;
+    pairs: who alone is right, on how many rows."""
+    return {
+        "suite": suite.name,
+        "rows": suite.rows,
+        "scored": len(suite.labels),
+        "unlabelled": suite.unlabelled,
+        "unknown_labels": dict(suite.unknown),
+        "notices": list(suite.notices),
+        "recognizers": {result.name: _recognizer(result) for result in results},
+        "pairs": [_pairing(pair) for pair in pairings(results)],
+    }
+
+
+def _recognizer(result: StrokeResult) -> Json:
+    return {
+        **_scores(result.scores),
+        "latency_ms": {"p50": result.latency.p50, "p95": result.latency.p95, "n": result.latency.n},
+        "unclaimable": dict(result.unclaimable),
+        "rejected": result.rejected,
+        "five_kinds": {
+            "kinds": list(DIAGRAM_KINDS),
+            "n": result.five.n,
+            "balanced_accuracy": result.five.balanced_accuracy,
+            "accuracy": result.five.accuracy,
+        },
+        "single_stroke": _scores(result.single),
+        "several_strokes": _scores(result.several),
+        "claimable_only": _scores(result.claimable),
+        "confusion": _confusion(result.scores),
+    }
+
+
+def _scores(scores: StrokeScores) -> Json:
+    return {
+        "n": scores.n,
+        "accuracy": scores.accuracy,
+        "balanced_accuracy": scores.balanced_accuracy,
+        "macro_f1": scores.macro_f1,
+        "ece": scores.ece,
+        "per_class": {kind: asdict(values) for kind, values in scores.per_class.items()},
+    }
+
+
+def _confusion(scores: StrokeScores) -> Json:
+    """For each true kind that is present, how often it was claimed as what."""
+    return {
+        kind: {
+            claimed: int(scores.confusion[row, column])
+            for column, claimed in enumerate(STROKE_KINDS)
+            if scores.confusion[row, column]
+        }
+        for row, kind in enumerate(STROKE_KINDS)
+        if kind in scores.per_class
+    }
+
+
+def _pairing(pair: Pairing) -> Json:
+    return {
+        "first": pair.first,
+        "second": pair.second,
+        "only_first_right": pair.only_first,
+        "only_second_right": pair.only_second,
+        "p": pair.p,
+    }

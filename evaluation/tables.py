@@ -1,0 +1,94 @@
+"""The contest's tables, once, for the terminal and for the report."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from evaluation.stroke_contest import DIAGRAM_KINDS, StrokeResult, pairings
+from evaluation.metrics.strokes import StrokeScores
+from evaluation.suites import StrokeSuite
+from evaluation.table import UNKNOWN, Cell, Table, column, table
+from sketch.page import STROKE_KINDS, StrokeKind
+
+TOLD = 5
+"""Notices of the reader of files that are shown; the JSON file holds all of them."""
+
+
+def stroke_table(suite: StrokeSuite, results: Sequence[StrokeResult]) -> Table:
+    """One row a recognizer: the scores of strokes, and the time they take."""
+
+    def share(values: Sequence[float | None], low: bool = False) -> list[Cell]:
+        return column(values, 1, 100, low)
+
+    return table(
+        f"{suite.name}: {len(suite.labels)} rows scored. Shares in %, times in ms a stroke on one thread.",
+        [result.name for result in results],
+        {
+            "accuracy": share([result.scores.accuracy for result in results]),
+            "balanced": share([result.scores.balanced_accuracy for result in results]),
+            "macro-F1": share([result.scores.macro_f1 for result in results]),
+            "five kinds": share([result.five.balanced_accuracy for result in results]),
+            "ECE": share([result.scores.ece for result in results], low=True),
+            "p50 ms": column([result.latency.p50 for result in results], 2, low=True),
+            "p95 ms": column([result.latency.p95 for result in results], 2, low=True),
+        },
+    )
+
+
+def recall_table(results: Sequence[StrokeResult]) -> Table:
+    """One row a kind: how many there are, and each recognizer's recall."""
+    kinds: list[StrokeKind] = [
+        kind for kind in STROKE_KINDS if results and kind in results[0].scores.per_class
+    ]
+
+    def recall(scores: StrokeScores) -> list[float]:
+        return [scores.per_class[kind].recall for kind in kinds]
+
+    by_kind = [
+        column(list(values), 1, 100)
+        for values in zip(*(recall(result.scores) for result in results), strict=True)
+    ]
+    rows = tuple(
+        (kind, Cell(str(results[0].scores.per_class[kind].n)), *cells)
+        for kind, cells in zip(kinds, by_kind, strict=True)
+    )
+    head = ("", "n", *(result.name for result in results))
+    return Table("Recall of each kind in %.", head, rows)
+
+
+def stroke_notes(suite: StrokeSuite, results: Sequence[StrokeResult]) -> list[str]:
+    """What the tables do not say, in sentences."""
+    five = results[0].five.n if results else 0
+    notes = [
+        f"Five kinds: balanced accuracy over {five} single strokes, each one of {', '.join(DIAGRAM_KINDS)}."
+    ]
+    several = sum(not single for single in suite.single)
+    if several:
+        notes.append(
+            f"{several} rows are of several strokes; such a row's claim is the kind of the greatest score "
+            "summed over its strokes."
+        )
+    for result in results:
+        if result.unclaimable:
+            labels = ", ".join(f"{label} ({n})" for label, n in result.unclaimable.items())
+            notes.append(
+                f"{result.name} cannot claim {labels}; stroke kinds among them count as errors, and without "
+                f"them its balanced accuracy is {_percent(result.claimable.balanced_accuracy)} %."
+            )
+    if suite.unknown:
+        labels = ", ".join(f"{label} ({n})" for label, n in suite.unknown.items())
+        notes.append(f"Labels that are no stroke kind are not scored: {labels}.")
+    if suite.unlabelled:
+        notes.append(f"{suite.unlabelled} rows bear no label and are not scored.")
+    notes += [
+        f"{pair.first} alone is right on {pair.only_first} rows, {pair.second} alone on {pair.only_second} "
+        f"(sign test p = {pair.p:.2g})."
+        for pair in pairings(results)
+        if pair.p is not None
+    ]
+    more = len(suite.notices) - TOLD
+    return [*notes, *suite.notices[:TOLD], *([f"… and {more} more such notices."] if more > 0 else [])]
+
+
+def _percent(share: float | None) -> str:
+    return UNKNOWN if share is None else f"{100 * share:.1f}"

@@ -1,0 +1,59 @@
+"""What happened on a page, in words."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+
+from physics.outcome import Outcome
+from physics.pipeline import Motion
+from sketch.ink import FloatArray
+
+STEADY = 0.02
+"""Speed is called steady in its growth when it leaves a straight line by at most this share of its range."""
+
+
+def happened(motion: Motion, outcome: Outcome) -> list[str]:
+    """Sentences: each movable body's fate with its way and speed, then what broke, then what the
+    simulation had to remark."""
+    trajectory = motion.trajectory
+    if not outcome.fates:
+        return ["Nothing on the page can move.", *motion.notices]
+    span = float(trajectory.times[-1])
+    told: list[str] = []
+    for label, fate in outcome.fates.items():
+        kind = motion.rectified.component(label).kind
+        path, speed = trajectory.path(label), trajectory.speed(label)
+        way = float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
+        told.append(
+            f"{label}, a {kind}, {fate}: {way:.2f} m of way in {span:.2f} s, "
+            f"{float(speed[-1]):.2f} m/s at the end.{_steadily(trajectory.times, speed)}"
+        )
+    told += _impacts(motion)
+    told += [event.message for event in trajectory.events if event.kind == "break"]
+    return [*told, *motion.notices]
+
+
+def _steadily(times: FloatArray, speed: FloatArray) -> str:
+    """A remark when speed against time is a rising straight line, with its slope."""
+    span = float(np.ptp(speed))
+    if span < 0.05 or len(times) < 3:
+        return ""
+    slope, start = np.polyfit(times, speed, 1)
+    off = float(np.abs(speed - (start + slope * times)).max())
+    return (
+        f" Its speed grows steadily by {slope:.2f} m/s each second."
+        if slope > 0 and off < STEADY * span
+        else ""
+    )
+
+
+def _impacts(motion: Motion) -> list[str]:
+    """How often which bodies met."""
+    met = Counter(event.bodies for event in motion.trajectory.events if event.kind in ("impact", "bounce"))
+    return [f"{' and '.join(bodies)} met {_times(n)}." for bodies, n in met.items()]
+
+
+def _times(n: int) -> str:
+    return {1: "once", 2: "twice"}.get(n, f"{n} times")

@@ -1,0 +1,14 @@
+"""Ink that knows physics: pages of pen strokes are read, corrected and set in motion.
+
+    import inklined
+
+    page = inklined.analyze("incline.inklined", recognizer="geometric")  # a sketch.page.Sketch
+    motion = inklined.move(page, seconds=2.0)                            # a physics.pipeline.Motion
+    results = inklined.compare(["strokes.jsonl.gz"])                     # scores of every recognizer
+
+Importing this costs nothing; what a function needs is imported when it is called.
+"""
+
+from inklined.api import analyze, compare, move
+
+__all__ = ["analyze", "compare", "move"]

@@ -1,0 +1,34 @@
+"""What the command line checks of its options beyond their types."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from pathlib import Path
+from typing import TypeVar
+
+import typer
+
+
+Name = TypeVar("Name", bound=str)
+
+
+def known(option: str, values: Iterable[str], names: Collection[Name]) -> tuple[Name, ...]:
+    """The values, each once, in their order. Raises typer.BadParameter for one that is no known name."""
+    chosen: dict[Name, None] = {}
+    for value in values:
+        found = next((name for name in names if name == value), None)
+        if found is None:
+            raise typer.BadParameter(f"{option} {value}: there is no such name; known are {', '.join(names)}")
+        chosen[found] = None
+    return tuple(chosen)
+
+
+def there(paths: Iterable[Path]) -> list[Path]:
+    """The paths. Raises FileNotFoundError or IsADirectoryError for one that is not a file to read."""
+    checked = list(paths)
+    for path in checked:
+        if not path.exists():
+            raise FileNotFoundError(2, "there is no such file", str(path))
+        if path.is_dir():
+            raise IsADirectoryError(21, "a folder, where a file of ink is needed", str(path))
+    return checked

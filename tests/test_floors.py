@@ -1,0 +1,96 @@
+"""No rival may become worse unnoticed: on seeded generated ink each must hold what it once reached.
+
+Floors lie a little below the measured figures (beside them), by about two strokes or one page of
+the suite. When a rival becomes better, measure and raise its floor:
+
+    python tests/test_floors.py
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import pytest
+
+from evaluation.page_contest import page_contest
+from evaluation.page_scores import summarize
+from evaluation.stroke_contest import stroke_contest
+from evaluation.suites import generated_pages, generated_strokes
+from recognizer.roster import ROSTER
+
+STROKES, PAGES, SEED = 900, 30, 4711
+"""Sizes and seed of the suites; the seed is used for nothing else."""
+
+
+@dataclass(frozen=True, slots=True)
+class Floor:
+    """Strokes: balanced accuracy over the five kinds of diagrams, and over all that it can claim;
+    calibration error at most. Pages: share read exactly, share with the right outcome, and motion
+    error at most. A rival that takes no part in strokes has None there."""
+
+    five_kinds: float | None
+    claimable: float | None
+    ece: float | None
+    exact: float
+    same_outcome: float
+    motion: float
+
+
+FLOORS: dict[str, Floor] = {}
+
+
+@pytest.fixture(scope="module")
+def strokes():
+    names = [name for name in ROSTER if name in FLOORS]
+    return {result.name: result for result in stroke_contest(generated_strokes(STROKES, SEED), names)}
+
+
+@pytest.fixture(scope="module")
+def pages():
+    names = [name for name in ROSTER if name in FLOORS]
+    results = page_contest(generated_pages(PAGES, SEED), names)
+    return {result.name: summarize(result.pages) for result in results}
+
+
+def test_every_rival_and_the_oracle_has_its_floor():
+    assert set(FLOORS) == {*ROSTER, "oracle"}
+
+
+@pytest.mark.parametrize("name", [name for name in FLOORS if name in ROSTER])
+def test_strokes_are_read_no_worse_than_before(name, strokes):
+    floor, result = FLOORS[name], strokes[name]
+    assert result.five.balanced_accuracy >= floor.five_kinds
+    assert result.claimable.balanced_accuracy >= floor.claimable
+    assert result.scores.ece <= floor.ece
+
+
+@pytest.mark.parametrize("name", FLOORS)
+def test_pages_are_read_and_moved_no_worse_than_before(name, pages):
+    floor, summary = FLOORS[name], pages[name]
+    assert summary.exact >= floor.exact
+    assert summary.same_outcome >= floor.same_outcome
+    assert summary.motion <= floor.motion
+
+
+def measure() -> None:
+    """Prints what every rival reaches now."""
+    names = tuple(ROSTER)
+    results = {result.name: result for result in stroke_contest(generated_strokes(STROKES, SEED), names)}
+    for page in page_contest(generated_pages(PAGES, SEED), names):
+        summary, stroke = summarize(page.pages), results.get(page.name)
+        print(  # noqa: T201 - a person runs this
+            f"{page.name:10}",
+            *(
+                [
+                    f"five {stroke.five.balanced_accuracy:.4f} claimable {stroke.claimable.balanced_accuracy:.4f}"
+                ]
+                if stroke
+                else []
+            ),
+            *([f"ece {stroke.scores.ece:.4f}"] if stroke else []),
+            f"exact {summary.exact:.3f} same outcome {summary.same_outcome:.3f} motion {summary.motion:.4f}",
+        )
+
+
+if __name__ == "__main__":
+    measure()
