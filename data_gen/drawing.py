@@ -8,7 +8,8 @@ of the block or run into it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import assert_never
 
@@ -16,8 +17,8 @@ import numpy as np
 
 from data_gen import ideals
 from data_gen.writers import Writer
-from sketch.geometry import centroid, diagonal, path_length, signed_distance
-from sketch.ink import FloatArray
+from sketch.geometry import centroid, diagonal, path_length, resample, signed_distance
+from sketch.ink import FloatArray, Stroke
 from sketch.shapes import Arrow, Circle, Point, Polygon, Shape, Solid, Spring, Wire, outline
 
 
@@ -45,6 +46,8 @@ class DrawingRule:
     """The same across its axis."""
     end_most: float = 7.0
     """Ends are never further off than this, page units."""
+    regard: float = 20.0
+    """Page units between a boundary that was meant and its ink that the eye bridges."""
     zigzag_uneven: float = 0.12
     """Standard deviation of the logarithm of a tooth's size and advance."""
     upright: float = 0.75
@@ -75,6 +78,27 @@ def paths(shape: Shape, writer: Writer, rng: np.random.Generator) -> list[FloatA
             return [ideals.arrow(start, end, head=0.2 * length, opening=float(rng.uniform(0.4, 0.7)))]
         case _:
             assert_never(shape)
+
+
+def led_to(
+    link: Spring | Wire, ends: tuple[str | None, str | None], drawn: Mapping[str, Sequence[Stroke]]
+) -> Spring | Wire:
+    """The link as meant once the solids it joins are on paper: it ends at their ink, where that is near.
+
+    ends: labels of the solids at start and end; drawn: the strokes of each solid.
+    """
+    start, end = (
+        spot if label is None else _nearest_ink(spot, drawn[label])
+        for spot, label in zip((link.start, link.end), ends, strict=True)
+    )
+    return link if start == end else replace(link, start=start, end=end)
+
+
+def _nearest_ink(spot: Point, strokes: Sequence[Stroke]) -> Point:
+    ink = np.concatenate([resample(stroke.points, 128) for stroke in strokes])
+    away = np.linalg.norm(ink - spot, axis=1)
+    nearest = int(np.argmin(away))
+    return (float(ink[nearest, 0]), float(ink[nearest, 1])) if away[nearest] <= RULE.regard else spot
 
 
 def tap(shape: Solid, rng: np.random.Generator) -> FloatArray:

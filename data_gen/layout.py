@@ -30,8 +30,9 @@ class Sheet:
     height: float = 450.0
     margin: float = 12.0
     """Between a line and the page's edge."""
-    clear: float = 14.0
-    """Between a line and the ink of a shape."""
+    clear: tuple[float, float] = (1.3, 0.6)
+    """Between a line and the ink of a shape at its side and above or below it, in letter heights: a
+    ball right beside the letters would be one of them."""
     between: tuple[float, float] = (1.6, 0.7)
     """Between two lines side by side and above one another, in letter heights: more than within one
     line, so that a reader can part them."""
@@ -66,7 +67,7 @@ def place(
         grid = np.stack(np.meshgrid(columns, rows), axis=-1).reshape(-1, 2)
         corner = rng.integers(2, size=2) * [SHEET.width, SHEET.height]
         target = corner if wish is None else np.asarray(wish)
-        free = _clear_of_ink(columns, rows, size, outlines)
+        free = _clear_of_ink(columns, rows, size, letter, outlines)
         for component in components:
             free &= ~_inside(component.shape, grid)
         for centre, other in taken:
@@ -95,10 +96,13 @@ def _lattice(size: Size) -> tuple[FloatArray, FloatArray]:
     return columns, rows
 
 
-def _clear_of_ink(columns: FloatArray, rows: FloatArray, size: Size, ink: FloatArray) -> NDArray[np.bool_]:
+def _clear_of_ink(
+    columns: FloatArray, rows: FloatArray, size: Size, letter: float, ink: FloatArray
+) -> NDArray[np.bool_]:
     """For each place, row by row, whether no point of the outlines lies in the line's rectangle or
     too near to it."""
-    across, down = np.asarray(size) / 2 + SHEET.clear + SHEET.step / 2
+    across = size[0] / 2 + SHEET.clear[0] * letter + SHEET.detail / 2
+    down = size[1] / 2 + SHEET.clear[1] * letter + SHEET.detail / 2
     in_column = np.abs(ink[:, :1] - columns) < across
     in_row = np.abs(rows[:, None] - ink[:, 1]) < down
     # The product counts, for each row and column, the points that are in both.

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
+from typing import Literal, assert_never
 
 import numpy as np
 
@@ -19,10 +21,10 @@ from data_gen.problems import ANSWERS, PROBLEMS, problem
 from data_gen.strokes import RULE as STROKE_RULE
 from data_gen.writers import Writer, sample_writer
 from sketch.formula.parse import expression
-from sketch.geometry import bounding_box, diagonal
+from sketch.geometry import bounding_box
 from sketch.ink import FloatArray, Ink, Stroke
 from sketch.page import Association, Component, Gesture, Sketch
-from sketch.shapes import Circle, Point, Polygon, outline
+from sketch.shapes import Circle, Point, Polygon, Shape, Spring, Wire, outline
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,47 +104,65 @@ def meaning(meant: Problem, places: Sequence[Point | None] = ()) -> Sketch:
 
 
 def _steadied(writer: Writer, component: Component) -> Writer:
-    """The writer at a shape of this size: beyond `steady` the eye corrects what the arm would stray."""
-    size = diagonal(outline(component.shape))
-    return replace(writer, wobble=writer.wobble * min(1.0, (RULE.steady / size) ** 0.5))
+    """The writer at a shape of this size. The pen strays in proportion to a stroke; on large and on thin
+    shapes the eye corrects it. Hooks become rarer as they would become too long."""
+    low, high = bounding_box(outline(component.shape))
+    width, height = (high - low).tolist()
+    size = float(np.hypot(width, height))
+    waver = min(1.0, (RULE.steady / size) ** 0.5)
+    if isinstance(component.shape, Circle | Polygon):
+        waver = min(waver, (2 * width * height) ** 0.5 / size)  # 1 for a square
+    return replace(writer, wobble=waver * writer.wobble, hooks=min(1.0, RULE.steady / size) * writer.hooks)
 
 
 @dataclass(frozen=True, slots=True)
 class _Thing:
-    """What is drawn in one go: a component, a tap or a line, by its number; and its meant paths."""
+    """What is drawn in one go: a component, a tap or a line of mathematics, by its number."""
 
-    role: str
+    role: Literal["component", "tap", "line"]
     number: int
     paths: Sequence[FloatArray]
     writer: Writer
+    strokes: Sequence[Stroke] = ()
 
 
 def _inked(meant: Problem, writer: Writer, rng: np.random.Generator) -> Sketch:
     """The truth with ink: draws everything thing by thing, and notes whose each stroke is."""
     hand = typeset.hand(writer, rng)
     lines = [typeset.line(remark.text, hand) for remark in meant.remarks]
-    sizes = [_size(line) for line in lines]
     wishes = [remark.about[0][1] if remark.about else None for remark in meant.remarks]
+    sizes = [_size(line) for line in lines]
     places = layout.place(sizes, wishes, meant.components, writer.height, rng)
-    truth = meaning(meant, places)
+    dots, letters = replace(writer, hooks=0.0), replace(writer, wobble=STROKE_RULE.loose * writer.wobble)
 
-    quick = replace(writer, speed=STROKE_RULE.tap_speed * writer.speed, hooks=0.0)
-    small = replace(writer, wobble=STROKE_RULE.loose * writer.wobble)
-    shapes = [
-        _Thing("component", number, drawing.paths(component.shape, writer, rng), _steadied(writer, component))
-        for number, component in enumerate(meant.components)
+    def component(number: int, part: Component, shape: Shape) -> _Thing:
+        return _Thing("component", number, drawing.paths(shape, writer, rng), _steadied(writer, part))
+
+    numbered = list(enumerate(meant.components))
+    solids = [
+        component(number, part, part.shape)
+        for number, part in numbered
+        if isinstance(part.shape, Circle | Polygon)
+    ]
+    solids = _drawn(solids, rng)
+    # A link is drawn to where the solids have come to be on paper.
+    outlines = {meant.components[solid.number].label: solid.strokes for solid in solids}
+    links = [
+        component(number, part, drawing.led_to(part.shape, part.ends, outlines))
+        for number, part in numbered
+        if isinstance(part.shape, Spring | Wire)
     ]
     taps = [
-        _Thing("tap", number, [drawing.tap(component.shape, rng)], quick)
-        for number, component in enumerate(meant.components)
-        if component.fixed and isinstance(component.shape, Circle | Polygon)
+        _Thing("tap", number, [drawing.tap(part.shape, rng)], dots)
+        for number, part in numbered
+        if part.fixed and isinstance(part.shape, Circle | Polygon)
     ]
     mathematics = [
-        _Thing("line", number, [path + centre for path in line], small)
+        _Thing("line", number, [path + centre for path in line], letters)
         for number, (line, centre) in enumerate(zip(lines, places, strict=True))
     ]
-    things = _in_drawing_order(shapes, taps, mathematics, meant, rng)
-    return _owned(truth, things, _drawn(things, rng))
+    rest = _drawn([*links, *taps, *mathematics], rng)
+    return _owned(meaning(meant, places), _in_drawing_order([*solids, *rest], meant, rng), rng)
 
 
 def _size(line: Sequence[FloatArray]) -> layout.Size:
@@ -150,14 +170,19 @@ def _size(line: Sequence[FloatArray]) -> layout.Size:
     return (float(high[0] - low[0]), float(high[1] - low[1]))
 
 
-def _in_drawing_order(
-    shapes: Sequence[_Thing],
-    taps: Sequence[_Thing],
-    mathematics: Sequence[_Thing],
-    meant: Problem,
-    rng: np.random.Generator,
-) -> list[_Thing]:
+def _drawn(things: Sequence[_Thing], rng: np.random.Generator) -> list[_Thing]:
+    """The things with their ink, each stroke's times beginning at 0."""
+    paths = [path for thing in things for path in thing.paths]
+    writers = [thing.writer for thing in things for _ in thing.paths]
+    strokes = iter(strokes_from(draw_batch(paths, writers, rng.spawn(len(paths)))))
+    return [replace(thing, strokes=tuple(islice(strokes, len(thing.paths)))) for thing in things]
+
+
+def _in_drawing_order(things: Sequence[_Thing], meant: Problem, rng: np.random.Generator) -> list[_Thing]:
     """Shapes, taps, mathematics: roughly in this order, differently from page to page."""
+    shapes = [thing for thing in things if thing.role == "component"]
+    taps = [thing for thing in things if thing.role == "tap"]
+    mathematics = [thing for thing in things if thing.role == "line"]
     shuffled = [shapes[k] for k in rng.permutation(len(shapes))]
     held_first, at_once, last = rng.random(3) < [RULE.held_first, RULE.tapped_at_once, RULE.mathematics_last]
     if held_first:
@@ -169,37 +194,30 @@ def _in_drawing_order(
     return [*shuffled, *taps, *mathematics] if last else [*shuffled, *mathematics, *taps]
 
 
-def _drawn(things: Sequence[_Thing], rng: np.random.Generator) -> list[Stroke]:
-    """The ink of all things, one stroke after another in time."""
-    paths = [path for thing in things for path in thing.paths]
-    writers = [thing.writer for thing in things for _ in thing.paths]
-    strokes = strokes_from(draw_batch(paths, writers, rng.spawn(len(paths))))
-    clock, timed = 0.0, list[Stroke]()
-    firsts = {sum(len(thing.paths) for thing in things[:k]) for k in range(len(things))}
-    for index, stroke in enumerate(strokes):
-        if index > 0:
-            clock += rng.uniform(*(RULE.thought if index in firsts else RULE.lift))
-        times = np.zeros(len(stroke)) if stroke.times is None else stroke.times - stroke.times[0]
-        timed.append(Stroke(stroke.points, clock + times, stroke.pressure))
-        clock += float(times[-1])
-    return timed
-
-
-def _owned(truth: Sketch, things: Sequence[_Thing], strokes: Sequence[Stroke]) -> Sketch:
-    """The truth with its ink, every stroke in the hands of the thing that it drew."""
+def _owned(truth: Sketch, things: Sequence[_Thing], rng: np.random.Generator) -> Sketch:
+    """The truth with the ink of these things, one stroke after another in time, each in the hands of
+    the thing that it drew."""
     components, expressions = list(truth.components), list(truth.expressions)
     gestures: list[Gesture] = []
-    first = 0
+    strokes: list[Stroke] = []
+    clock = 0.0
     for thing in things:
-        owned = tuple(range(first, first + len(thing.paths)))
-        first += len(owned)
+        owned = tuple(range(len(strokes), len(strokes) + len(thing.strokes)))
+        for index, stroke in enumerate(thing.strokes):
+            if strokes:
+                clock += float(rng.uniform(*(RULE.lift if index else RULE.thought)))
+            times = clock + (np.zeros(len(stroke)) if stroke.times is None else stroke.times)
+            strokes.append(Stroke(stroke.points, times, stroke.pressure))
+            clock = float(times[-1])
         match thing.role:
             case "component":
                 components[thing.number] = replace(components[thing.number], strokes=owned)
             case "tap":
-                gestures.append(Gesture("tap", owned[0]))
-            case _:
+                gestures.extend(Gesture("tap", stroke) for stroke in owned)
+            case "line":
                 expressions[thing.number] = replace(expressions[thing.number], strokes=owned)
+            case _:
+                assert_never(thing.role)
     return replace(
         truth,
         ink=Ink(tuple(strokes)),

@@ -48,6 +48,8 @@ ANSWERS: dict[str, tuple[str, ...]] = {
 }
 """For each diagram the answers that a page can bear, the right one first."""
 
+_ROW = 60.0
+"""Height of a row in which people read from left to right, page units."""
 _LABELS = tuple(labels()[:26])
 
 
@@ -64,11 +66,11 @@ def problem(name: str, answer: str, rng: np.random.Generator) -> Problem:
 
 
 def _in_reading_order(drawn: Problem) -> Problem:
-    """The same diagram with labels A, B … given out from top to bottom, then left to right."""
+    """The same diagram with labels A, B … given out row by row from the top, each row from the left."""
 
-    def place(component: Component) -> tuple[float, float]:
+    def place(component: Component) -> tuple[int, float]:
         x, y = np.mean(bounding_box(outline(component.shape)), axis=0)
-        return (round(float(y), 6), float(x))  # what stands at one height differs in the last digits
+        return (round(float(y) / _ROW), float(x))
 
     def named(end: str | None) -> str | None:
         return None if end is None else letter[end]

@@ -71,18 +71,16 @@ def test_a_root_covers_what_stands_under_it():
         assert root[-1, 0] > high[0] - 0.1 * np.ptp(root[:, 0])
 
 
-def test_subscripts_are_smaller_and_lower_than_their_letter_and_exponents_higher():
+def test_subscripts_hang_below_their_letter_and_exponents_rise_above_it_both_smaller_than_a_capital():
     for seed in range(8):
-        plain = np.concatenate(line("x", somebody(seed)))
-        sub = np.concatenate(line("x_2", somebody(seed)))
-        power = np.concatenate(line("x^2", somebody(seed)))
-        # The centre of a line is 0; a subscript draws the line's letter up, an exponent down.
-        assert np.ptp(sub[:, 1]) > np.ptp(plain[:, 1])
-        assert np.ptp(power[:, 1]) > np.ptp(plain[:, 1])
-        right = sub[:, 0] > sub[:, 0].max() - 0.25 * np.ptp(sub[:, 0])
-        assert sub[right, 1].max() == pytest.approx(sub[:, 1].max(), abs=1e-6) or sub[right, 1].mean() > 0
-        right = power[:, 0] > power[:, 0].max() - 0.25 * np.ptp(power[:, 0])
-        assert power[right, 1].mean() < 0
+        by = somebody(seed)
+        letter = len(line("x", somebody(seed)))
+        for text, higher in (("x_2", False), ("x^2", True)):
+            strokes = line(text, somebody(seed))
+            base, script = box(np.concatenate(strokes[:letter])), box(np.concatenate(strokes[letter:]))
+            beyond = base[0][1] - script[0][1] if higher else script[1][1] - base[1][1]
+            assert beyond > 0.1 * by.writer.height
+            assert (script[1] - script[0])[1] < 0.85 * by.writer.height
 
 
 def test_text_that_is_no_formula_is_refused_with_its_place():
