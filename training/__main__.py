@@ -7,13 +7,15 @@ import json
 import os
 import sys
 import time
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
 from datetime import date
 from pathlib import Path
 
 import numpy as np
 import torch
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from recognizer.learned.recognizer import WEIGHTS
 from sketch.page import STROKE_KINDS
@@ -30,22 +32,19 @@ def main(arguments: list[str] | None = None) -> int:
     console = Console(stderr=True)
     begun = time.monotonic()
     torch.set_num_threads(options.threads)
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[note]}"))
-    with Progress(*columns, TimeElapsedColumn(), TimeRemainingColumn(), console=console) as progress:
-        making = progress.add_task("generating strokes", total=options.strokes, note="")
+    with _progress(console) as tell:
         corpus = make_corpus(
             options.strokes,
             options.seed,
             options.threads,
-            lambda done: progress.update(making, completed=done),
+            lambda done: tell("generating", done / options.strokes, ""),
         )
         held_out = make_corpus(max(512, options.strokes // 20), options.seed + 1_000, options.threads)
-        fitting = progress.add_task("training", total=1.0, note="")
         net = fit(
             corpus,
             options.seed,
             FitRule(epochs=options.epochs),
-            lambda share, loss: progress.update(fitting, completed=share, note=f"loss {loss:.3f}"),
+            lambda share, loss: tell("training", share, f"loss {loss:.3f}"),
         )
     logits = logits_of(net, held_out)
     heat = temperature(logits, held_out.kind)
@@ -74,6 +73,32 @@ def main(arguments: list[str] | None = None) -> int:
     )
     console.print(f"wrote {target}")
     return 0 if np.isfinite(heat) and recipe["parity_with_torch"] < 1e-4 else 1
+
+
+@contextmanager
+def _progress(console: Console) -> Generator[Callable[[str, float, str], None]]:
+    """Tells how far each stage is: bars on a terminal, a line every tenth in a log."""
+    if not console.is_terminal:
+        told: dict[str, int] = {}
+
+        def tell(stage: str, share: float, note: str) -> None:
+            tenth = int(10 * share)
+            if told.get(stage) != tenth:
+                told[stage] = tenth
+                console.print(f"{stage} {10 * tenth} % {note}")
+
+        yield tell
+        return
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[note]}"))
+    with Progress(*columns, TimeElapsedColumn(), TimeRemainingColumn(), console=console) as bars:
+        stages: dict[str, TaskID] = {}
+
+        def draw(stage: str, share: float, note: str) -> None:
+            if stage not in stages:
+                stages[stage] = bars.add_task(stage, total=1.0, note="")
+            bars.update(stages[stage], completed=share, note=note)
+
+        yield draw
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
