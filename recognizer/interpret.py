@@ -17,11 +17,11 @@ from recognizer.attach import Solids, anchored
 from recognizer.claims import Claim, Recognizer
 from recognizer.erase import erased
 from recognizer.group import boxes_of, letter_height, lines
-from recognizer.parts import Part, arrows, links, shapes
+from recognizer.parts import Part, among_letters, arrows, links, shapes
 from sketch.formula.parse import expression
 from sketch.ink import FloatArray, Ink
 from sketch.page import Association, Component, Expression, Gesture, Sketch, StrokeKind
-from sketch.shapes import Circle, Point, Polygon, outline
+from sketch.shapes import COMPONENT_KINDS, Circle, Point, Polygon, outline
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,9 +62,8 @@ def interpret(ink: Ink, recognizer: Recognizer, notes: Sequence[Note] = ()) -> S
         None if claim.rejected or index in gone else claim.kind for index, claim in enumerate(claims)
     ]
     solids, held = links(ink, kinds, shapes(ink, kinds))
-    free = _leftover(kinds, claims, [*solids, *held])
-    marks = arrows(ink, [index for index, kind in free.items() if kind == "arrow"])
-    writing = [index for index, kind in free.items() if kind == "math"]
+    pointing, writing = _leftover(ink, kinds, claims, [*solids, *held])
+    marks = arrows(ink, pointing)
     taps = [index for index, kind in enumerate(kinds) if kind == "tap"]
     tapped, points = _tapped(ink, taps, solids, writing)
     components = _labelled(solids, held, marks, [tapped.get(tap) for tap in taps])
@@ -92,15 +91,22 @@ def notes_of(sketch: Sketch) -> tuple[Note, ...]:
 
 
 def _leftover(
-    kinds: Sequence[StrokeKind | None], claims: Sequence[Claim], parts: Sequence[Part]
-) -> dict[int, StrokeKind]:
-    """Arrow or mathematics for each stroke that drew no solid and no link: what its claim prefers."""
+    ink: Ink, kinds: Sequence[StrokeKind | None], claims: Sequence[Claim], parts: Sequence[Part]
+) -> tuple[list[int], list[int]]:
+    """The strokes of arrows, and those of mathematics, among the strokes that drew no solid and no link:
+    what their claims prefer, but a mark among letters is a letter."""
     used = {stroke for part in parts for stroke in part.strokes}
-    return {
-        index: "arrow" if claims[index].score("arrow") > claims[index].score("math") else "math"
-        for index, kind in enumerate(kinds)
-        if kind in ("circle", "polygon", "spring", "wire", "arrow", "math") and index not in used
-    }
+    left = [
+        index for index, kind in enumerate(kinds) if kind in COMPONENT_KINDS + ("math",) and index not in used
+    ]
+    pointing = [index for index in left if claims[index].score("arrow") > claims[index].score("math")]
+    aside = set(pointing)
+    writing = [index for index in left if index not in aside]
+    letters = among_letters(ink, [(index,) for index in pointing], writing)
+    return (
+        [index for index, letter in zip(pointing, letters, strict=True) if not letter],
+        sorted([*writing, *(index for index, letter in zip(pointing, letters, strict=True) if letter)]),
+    )
 
 
 def _tapped(

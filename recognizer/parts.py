@@ -155,32 +155,42 @@ def _outline_of(strokes: list[Stroke], kinds: list[StrokeKind | None]) -> Solid 
     return shape if isinstance(shape, Circle | Polygon) else None
 
 
-def _without_letters(
-    ink: Ink, solids: Sequence[Part], found: Sequence[Part], letters: Sequence[int], rule: PartRule
-) -> list[Part]:
-    """The solids without those that are as small as the letters beside them."""
+def among_letters(
+    ink: Ink, parts: Sequence[tuple[int, ...]], letters: Sequence[int], rule: PartRule = PARTS
+) -> list[bool]:
+    """For each set of strokes whether it is no larger than the letters and stands in a line with one of
+    them: then it is a letter itself, by its context."""
     if not letters:
-        return list(solids)
+        return [False] * len(parts)
     boxes = boxes_of(ink, letters)
     height = letter_height(boxes)
     tree = shapely.STRtree(shapely.box(*boxes.T))
+    found: list[bool] = []
+    for strokes in parts:
+        own = boxes_of(ink, strokes)
+        left, top, right, bottom = *own[:, :2].min(axis=0), *own[:, 2:].max(axis=0)
+        tall = bottom - top
+        if max(tall, right - left) > rule.letter * height:
+            found.append(False)
+            continue
+        reach = rule.beside * height
+        meeting = tree.query(shapely.box(left - reach, top, right + reach, bottom))
+        near = boxes[[position for position in meeting.tolist() if letters[position] not in strokes]]
+        level = np.minimum(near[:, 3], bottom) - np.maximum(near[:, 1], top)
+        found.append(bool((level >= rule.level * np.minimum(near[:, 3] - near[:, 1], tall)).any()))
+    return found
+
+
+def _without_letters(
+    ink: Ink, solids: Sequence[Part], found: Sequence[Part], letters: Sequence[int], rule: PartRule
+) -> list[Part]:
+    """The solids without those that are letters by their context, unless a long link ends there."""
+    height = letter_height(boxes_of(ink, letters)) if letters else 0.0
     held = {
         end for link in found if _length(link.shape) >= rule.long_link * height for end in link.ends or ()
     }
-    kept: list[Part] = []
-    for position, part in enumerate(solids):
-        own = boxes_of(ink, part.strokes)
-        left, top, right, bottom = *own[:, :2].min(axis=0), *own[:, 2:].max(axis=0)
-        tall = bottom - top
-        if position in held or max(tall, right - left) > rule.letter * height:
-            kept.append(part)
-            continue
-        reach = rule.beside * height
-        near = boxes[tree.query(shapely.box(left - reach, top, right + reach, bottom))]
-        level = np.minimum(near[:, 3], bottom) - np.maximum(near[:, 1], top)
-        if not (level >= rule.level * np.minimum(near[:, 3] - near[:, 1], tall)).any():
-            kept.append(part)
-    return kept
+    small = among_letters(ink, [part.strokes for part in solids], letters, rule)
+    return [part for position, part in enumerate(solids) if position in held or not small[position]]
 
 
 def _length(shape: Shape) -> float:

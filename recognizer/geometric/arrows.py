@@ -6,6 +6,7 @@ Frame: equally spaced points of a path whose bounding box has a diagonal of 1.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import radians
 
 import numpy as np
 
@@ -20,9 +21,11 @@ class ArrowRule:
     shaft: float = 0.3
     """The first part of the path, as a share of its length, that gives the shaft's direction. The
     shaft itself is at least that: a head has two or four strokes of a third of the shaft."""
-    tip: float = 0.06
-    """Within this share of the shaft's length of the farthest point: at the tip. Later visits to the
-    tip overshoot by about as much."""
+    tip: float = 0.3
+    """The tip lies within this share of the farthest point's distance of it: when the pen comes back to
+    the tip between the barbs, it often overshoots, by up to half a barb."""
+    turn: float = radians(80)
+    """At the tip the pen turns by more than this: barbs come back at more than a right angle."""
 
 
 ARROW = ArrowRule()
@@ -32,8 +35,8 @@ ARROW = ArrowRule()
 class Head:
     """What follows the tip, in lengths of the shaft. tip: index of the tip; bow: rms distance of the
     shaft from its chord; fallback: how far the head reaches back from the tip; narrower, wider: its
-    reach to its lesser and its greater side; ink: length of the head's path; sharpest: greatest bend from
-    the tip on, radians."""
+    reach to its lesser and its greater side; ink: length of the head's path; sharpest: bend at the
+    tip, radians."""
 
     tip: int
     bow: float
@@ -53,8 +56,12 @@ def head(path: FloatArray, rule: ArrowRule = ARROW) -> Head | None:
         return None
     along = (path - path[0]) @ (aim / length)
     farthest = float(along.max())
-    tip = int(np.argmax(along >= farthest * (1 - rule.tip)))
-    tip += int(np.argmax(along[tip : tip + 3]))
+    sharpness = np.abs(bends(path))
+    turned = np.flatnonzero((along >= farthest * (1 - rule.tip)) & (sharpness > rule.turn))
+    if len(turned) == 0:
+        return None
+    tip = int(turned[0])
+    tip += int(np.argmax(sharpness[tip : tip + 4]))
     shaft = path[tip] - path[0]
     length = float(np.hypot(*shaft))
     if tip < rule.shaft * (count - 1) or tip > count - 4 or length == 0:
@@ -71,5 +78,5 @@ def head(path: FloatArray, rule: ArrowRule = ARROW) -> Head | None:
         narrower=min(low, high),
         wider=max(low, high),
         ink=float(np.hypot(*np.diff(rest, axis=0).T).sum()),
-        sharpest=float(np.abs(bends(path)[max(tip - 2, 0) :]).max()),
+        sharpest=float(sharpness[tip]),
     )

@@ -7,6 +7,7 @@ compared with other ink, so that the page's scale is no matter (but for a stroke
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,8 +63,9 @@ class GestureRule:
 GESTURES = GestureRule()
 
 
-def gestures(ink: Ink, rule: GestureRule = GESTURES) -> list[GestureKind | None]:
-    """For each stroke the gesture that its surroundings make it, or None."""
+def gestures(ink: Ink, polygons: Sequence[bool], rule: GestureRule = GESTURES) -> list[GestureKind | None]:
+    """For each stroke the gesture that its surroundings make it, or None. `polygons`: which strokes are
+    clearly polygons in themselves, and so no lassos: a block may be drawn about another."""
     found: list[GestureKind | None] = [None] * len(ink)
     if len(ink) == 0:
         return found
@@ -83,7 +85,7 @@ def gestures(ink: Ink, rule: GestureRule = GESTURES) -> list[GestureKind | None]
             continue
         if is_scribble(stroke, [ink[other] for other in earlier], rule):
             found[index] = "scribble"
-        else:
+        elif not polygons[index]:
             worthy = [ink[other] for other in earlier if sizes[other] > rule.worth * sizes[index]]
             if is_lasso(stroke, worthy, rule):
                 found[index] = "lasso"

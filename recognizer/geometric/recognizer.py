@@ -7,6 +7,7 @@ taps are tiny beside the other strokes, a scribble covers earlier ink, a lasso e
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import log
 
 import numpy as np
 
@@ -26,6 +27,8 @@ class Confidence:
     """Divides the evidence before the softmax: 1 takes the soft bounds at their word."""
     reject: float = 0.45
     """Below this confidence the stroke is rejected: two kinds are then about equally likely."""
+    clear: float = log(0.5)
+    """Evidence from which a stroke is clearly of a kind: more likely than not, taken by itself."""
     gesture: float = 0.9
     """Of a gesture: its context is a conjunction of plain facts, wrong once in ten by their margins."""
 
@@ -41,15 +44,18 @@ class Geometric:
 
     def recognize(self, ink: Ink) -> tuple[Claim, ...]:
         """One claim a stroke, with a softmax of its evidence as scores."""
+        alone = [weigh(stroke) for stroke in ink]
+        polygons = [float(row[STROKE_KINDS.index("polygon")]) > CONFIDENCE.clear for row in alone]
         return tuple(
-            claim(weigh(stroke)) if gesture is None else claim_for(gesture, CONFIDENCE.gesture)
-            for stroke, gesture in zip(ink, gestures(ink), strict=True)
+            claim(row) if gesture is None else claim_for(gesture, CONFIDENCE.gesture)
+            for row, gesture in zip(alone, gestures(ink, polygons), strict=True)
         )
 
 
 def weigh(stroke: Stroke) -> FloatArray:
-    """The evidence for each kind from one stroke that moved, seen alone, (9,)."""
-    return evidence(unit_path(stroke))
+    """The evidence for each kind from one stroke seen alone, (9,); none from a pen that never moved."""
+    path = unit_path(stroke)
+    return evidence(path) if len(path) > 1 else np.zeros(len(STROKE_KINDS))
 
 
 def claim(row: FloatArray, rule: Confidence = CONFIDENCE) -> Claim:
