@@ -130,12 +130,13 @@ def _row(queue: _Queue, by: Hand, stop: tuple[str, ...]) -> Written:
     pieces: list[Written] = []
     room: list[float] = []  # what each piece asks for on its left beyond the usual gap
     sign_space = PROPORTIONS.space - PROPORTIONS.gap
-    operand = False  # whether what stands last is an operand: a sign after it is an operation
+    operand = False  # whether what stands last is an operand, so that a sign after it joins two
+    lone = False  # whether what stands last is the sign of one number
     while queue.peek() not in (*stop, "end"):
         kind = queue.peek()
         if kind == "*":
             queue.take()
-        elif kind in "/^" and not operand:
+        elif kind in ("/", "^") and not operand:
             raise FormulaError(f"{kind!r} needs something before it", queue.text, queue.take().start)
         elif kind == "/":
             queue.take()
@@ -145,14 +146,14 @@ def _row(queue: _Queue, by: Hand, stop: tuple[str, ...]) -> Written:
             pieces[-1:] = [_raised(pieces[-1], _atom(queue, by)[1], by)]
         elif kind in ("=", "+", "-", ","):
             queue.take()
-            room.append(sign_space if operand and kind != "," else 0.0)
+            room.append(sign_space if pieces and kind != "," else 0.0)
             pieces.append(_glyph(kind, by))
-            operand = False
+            operand, lone = False, not operand and kind != "="
         else:
             whole, bare = _atom(queue, by)
             # A bracket round a numerator is for the keyboard; over a bar it is not written.
             pieces.append(bare if queue.peek() == "/" and by.stacked else whole)
-            after_sign = len(pieces) > 1 and not operand
+            after_sign = len(pieces) > 1 and not operand and not lone
             apart = kind in ("function", "|", "‖")
             room.append(sign_space if after_sign else PROPORTIONS.gap if apart and operand else 0.0)
             operand = True

@@ -37,6 +37,7 @@ class TwoBallsRanges:
 
 
 def two_balls(_answer: str, rng: np.random.Generator) -> Problem:
+    """Nothing is asked: both move on the floor once they have met."""
     ranges = TwoBallsRanges()
     side = int(rng.choice([-1, 1]))  # the way the first ball moves
     radius = float(rng.uniform(*ranges.radius))

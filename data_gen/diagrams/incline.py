@@ -49,6 +49,7 @@ class InclineRanges:
 
 
 def incline_and_ball(answer: str, rng: np.random.Generator) -> Problem:
+    """Right: f_1 balances the weight's part into the incline and the ball rolls; low and high: a tenth off."""
     ranges = InclineRanges()
     written, angle = ranges.angles[rng.integers(len(ranges.angles))]
     base = min(rng.uniform(*ranges.base), ranges.height / tan(angle))

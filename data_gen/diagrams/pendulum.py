@@ -32,6 +32,7 @@ class PendulumRanges:
 
 
 def pendulum(_answer: str, rng: np.random.Generator) -> Problem:
+    """Nothing is asked: it swings."""
     ranges = PendulumRanges()
     anchor, high = ceiling(rng)
     angle = rng.uniform(*ranges.angle) * rng.choice([-1, 1])

@@ -40,6 +40,7 @@ class SpringRanges:
 
 
 def mass_on_spring(_answer: str, rng: np.random.Generator) -> Problem:
+    """Three of five masses hang and are let go; the others stand beside a wall and are pushed."""
     return (_hanging_mass if rng.random() < 0.6 else _mass_beside_wall)(rng)
 
 

@@ -33,6 +33,7 @@ class StackRanges:
 
 
 def stack_of_boxes(_answer: str, rng: np.random.Generator) -> Problem:
+    """Nothing is asked: it stands."""
     ranges = StackRanges()
     middle = np.array([rng.uniform(260, 340), rng.uniform(350, 400)])
     reach = rng.uniform(170, 240)

@@ -45,6 +45,7 @@ TENSIONS: dict[str, tuple[str, str]] = {
 
 
 def box_on_two_wires(answer: str, rng: np.random.Generator) -> Problem:
+    """The answers are the tensions of `TENSIONS`, left and right."""
     ranges = HangingBoxRanges()
     half = rng.uniform(*ranges.width) / 2
     height = rng.uniform(*ranges.height)
