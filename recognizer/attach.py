@@ -50,6 +50,11 @@ class Solids:
         found = self._tree.query(shapely.Point(point).buffer(reach) if reach > 0 else shapely.Point(point))
         return sorted((signed_distance(self.shapes[index], point), index) for index in found.tolist())
 
+    def holds(self, point: FloatArray) -> bool:
+        """Whether the point, (2,), lies in a solid."""
+        near = self.near((float(point[0]), float(point[1])))
+        return bool(near) and near[0][0] <= 0
+
     def at_end(self, link: Link, end: Point) -> list[int]:
         """Indices of the solids to which this end of a link can be attached, the likeliest first:
         by the distance to the boundary, whether the pen stopped short or ran inside."""

@@ -1,4 +1,4 @@
-"""What a scribble takes away (row P3): the earlier ink that it goes over.
+"""What gestures have to do with other ink (row P3): a scribble takes away what it goes over.
 
 Frame: page units, y down. The strokes stay in the ink; nobody claims them.
 """
@@ -35,7 +35,7 @@ def erased(ink: Ink, kinds: Sequence[StrokeKind | None], rule: EraseRule = ERASE
     scribbles = [index for index, kind in enumerate(kinds) if kind == "scribble"]
     if not scribbles:
         return set()
-    lines = [shapely.LineString(np.repeat(s.points, 2, axis=0) if len(s) == 1 else s.points) for s in ink]
+    lines = _lines(ink)
     tree = shapely.STRtree(lines)
     gone: set[int] = set()
     for scribble in scribbles:
@@ -49,6 +49,28 @@ def erased(ink: Ink, kinds: Sequence[StrokeKind | None], rule: EraseRule = ERASE
             if inside >= rule.covered or _crossings(lines[scribble], lines[index]) >= rule.hits:
                 gone.add(index)
     return gone
+
+
+def without_object(ink: Ink, kinds: Sequence[StrokeKind | None]) -> set[int]:
+    """Indices of the gestures that can mean nothing: scribbles whose hull no earlier stroke meets, lassos
+    whose hull contains none but dots."""
+    gestures = [index for index, kind in enumerate(kinds) if kind in ("scribble", "lasso")]
+    if not gestures:
+        return set()
+    lines = _lines(ink)
+    tree = shapely.STRtree(lines)
+    idle: set[int] = set()
+    for index in gestures:
+        predicate = "intersects" if kinds[index] == "scribble" else "contains"
+        met = tree.query(lines[index].convex_hull, predicate=predicate)
+        if not any(other < index and kinds[other] != "tap" for other in met.tolist()):
+            idle.add(index)
+    return idle
+
+
+def _lines(ink: Ink) -> list[shapely.LineString]:
+    """Each stroke as a line; a dot as one of no length."""
+    return [shapely.LineString(np.repeat(s.points, 2, axis=0) if len(s) == 1 else s.points) for s in ink]
 
 
 def _crossings(one: shapely.LineString, other: shapely.LineString) -> int:

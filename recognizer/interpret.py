@@ -15,7 +15,7 @@ import numpy as np
 
 from recognizer.attach import Solids, anchored
 from recognizer.claims import Claim, Recognizer
-from recognizer.erase import erased
+from recognizer.erase import erased, without_object
 from recognizer.group import boxes_of, letter_height, lines
 from recognizer.parts import Part, among_letters, arrows, links, shapes
 from sketch.formula.parse import expression
@@ -42,12 +42,14 @@ class InterpretRule:
     note: float = 2.0
     """Letter heights from a note's place to the ink of its line, at most."""
     point: float = 0.6
-    """Letter heights from a dot to the writing that it is part of."""
+    """Letter heights from a dot that just misses a solid to the writing that it is part of instead."""
     row: float = 0.15
     """Share of the page's height within which two components stand in one row."""
 
 
 RULE = InterpretRule()
+DRAWN_KINDS: tuple[StrokeKind, ...] = (*COMPONENT_KINDS, "math")
+"""What a stroke can be that is no gesture."""
 
 
 def interpret(ink: Ink, recognizer: Recognizer, notes: Sequence[Note] = ()) -> Sketch:
@@ -57,10 +59,11 @@ def interpret(ink: Ink, recognizer: Recognizer, notes: Sequence[Note] = ()) -> S
     B … in reading order; a shape's start and end stay where the pen put them.
     """
     claims = recognizer.recognize(ink)
-    gone = erased(ink, [claim.kind for claim in claims])
-    kinds: list[StrokeKind | None] = [
-        None if claim.rejected or index in gone else claim.kind for index, claim in enumerate(claims)
-    ]
+    meant: list[StrokeKind | None] = [None if claim.rejected else claim.kind for claim in claims]
+    idle = without_object(ink, meant)
+    named = [_next_best(claims[index]) if index in idle else kind for index, kind in enumerate(meant)]
+    gone = erased(ink, named)
+    kinds: list[StrokeKind | None] = [None if index in gone else kind for index, kind in enumerate(named)]
     solids, held = links(ink, kinds, shapes(ink, kinds))
     pointing, writing = _leftover(ink, kinds, claims, [*solids, *held])
     marks = arrows(ink, pointing)
@@ -90,15 +93,19 @@ def notes_of(sketch: Sketch) -> tuple[Note, ...]:
     )
 
 
+def _next_best(claim: Claim) -> StrokeKind:
+    """What a scribble or lasso is that has no object: the likeliest other kind, where there is one."""
+    other = max(DRAWN_KINDS, key=claim.score)
+    return other if claim.score(other) > 0 else claim.kind
+
+
 def _leftover(
     ink: Ink, kinds: Sequence[StrokeKind | None], claims: Sequence[Claim], parts: Sequence[Part]
 ) -> tuple[list[int], list[int]]:
     """The strokes of arrows, and those of mathematics, among the strokes that drew no solid and no link:
     what their claims prefer, but a mark among letters is a letter."""
     used = {stroke for part in parts for stroke in part.strokes}
-    left = [
-        index for index, kind in enumerate(kinds) if kind in COMPONENT_KINDS + ("math",) and index not in used
-    ]
+    left = [index for index, kind in enumerate(kinds) if kind in DRAWN_KINDS and index not in used]
     pointing = [index for index in left if claims[index].score("arrow") > claims[index].score("math")]
     aside = set(pointing)
     writing = [index for index in left if index not in aside]
@@ -113,7 +120,7 @@ def _tapped(
     ink: Ink, taps: Sequence[int], solids: Sequence[Part], writing: Sequence[int]
 ) -> tuple[dict[int, int], set[int]]:
     """Which solid (its position) each tap means, and which taps are points of the writing instead: those
-    near it that lie in no solid."""
+    that lie in no solid, and nearer to the writing or on nothing at all."""
     index = Solids([part.shape for part in solids if isinstance(part.shape, Circle | Polygon)])
     boxes = boxes_of(ink, writing)
     reach = RULE.point * letter_height(boxes) if len(boxes) else 0.0
@@ -126,6 +133,8 @@ def _tapped(
             points.add(tap)
         elif (solid := index.tapped(spot)) is not None:
             tapped[tap] = solid
+        elif len(boxes):
+            points.add(tap)  # a tap on nothing means nothing; a dot on a page of writing does
     return tapped, points
 
 

@@ -62,12 +62,15 @@ class Part:
 
 def shapes(ink: Ink, kinds: Sequence[StrokeKind | None], rule: PartRule = PARTS) -> list[Part]:
     """Circles and polygons that enclose enough: outlines of several strokes first, then those of one."""
+    sides = [index for index, kind in enumerate(kinds) if kind in ("circle", "polygon")]
     pieces = [index for index, kind in enumerate(kinds) if kind in ("circle", "polygon", "wire", "math")]
     left, top, right, bottom = ink.bounds()
     least = (rule.area * float(np.hypot(right - left, bottom - top))) ** 2
     found: list[Part] = []
     used: set[int] = set()
-    for chain in chains(ink, pieces):
+    for chain in (*chains(ink, sides), *chains(ink, pieces)):
+        if used.intersection(chain):
+            continue
         shape = _outline_of([ink[index] for index in chain], [kinds[index] for index in chain])
         if shape is not None and solid_area(shape) >= least:
             found.append(Part(shape, chain))
@@ -95,10 +98,13 @@ def links(
     ]
     first = attached(candidates, solids)
     linked = {stroke for link in first for stroke in link.strokes}
+    drawn = used | linked
+    inside = Solids([_solid(part.shape) for part in solids])
     letters = [
         index
         for index, kind in enumerate(kinds)
-        if index not in used | linked and kind in ("math", "wire", "spring")
+        if (index not in drawn and kind in ("math", "wire", "spring"))
+        or (kind == "tap" and not inside.holds(ink[index].points.mean(axis=0)))
     ]
     kept = _without_letters(ink, solids, first, letters, rule)
     return kept, attached(candidates, kept)
