@@ -31,10 +31,12 @@ Family = Callable[[np.random.Generator], FloatArray]
 class FamilyRule:
     """Shares and spreads of the families, judged by eye on what people draw."""
 
-    aspect: float = 0.28
+    aspect: float = 0.34
     """Standard deviation of log(width / height) of circles: most are a little oval, some slim."""
     closing: float = 0.035
     """Standard deviation of the closing error, fraction of the perimeter."""
+    late_ring: float = 0.7
+    """A normal variate above this begins a ring with a chord: one in four."""
     tail: float = 0.2
     """Share of closed shapes whose pen runs on straight past the closure."""
     mid_side: float = 0.12
@@ -64,12 +66,17 @@ def circle(rng: np.random.Generator) -> FloatArray:
     u = rng.random(6)
     aspect = float(np.exp(RULE.aspect * z[0] * (1.8 if u[0] < 0.15 else 1.0)))
     start = -np.pi / 2 + (0.5 * z[1] if u[1] < 0.6 else 2 * np.pi * u[2])
-    sweep = (2 * np.pi) * max(0.86, 1.0 + 0.01 + RULE.closing * z[2] + (0.15 * u[3] ** 2))
+    spread = RULE.closing * (2.5 if u[3] < 0.2 else 1.0)
+    sweep = 2 * np.pi * float(np.clip(1.02 + spread * z[2], 0.83, 1.3))
     squareness = 2.0 + 0.35 * max(-0.8, z[3])
     egg = float(np.clip(0.13 * z[4], -0.4, 0.4))
     path = ideals.superellipse((0, 0), (0.5 * aspect**0.5, 0.5 / aspect**0.5), start, sweep, squareness, egg)
     drift = 1.0 + 0.05 * z[5] * np.linspace(-0.5, 0.5, len(path))
-    return _with_tail(_directed(_turned(path * drift[:, None], np.pi * u[4]), u[5]), rng)
+    path = path * drift[:, None]
+    if z[6] > RULE.late_ring:
+        # A fast start on a slow device: the first points are missing, a chord stands for them.
+        path = np.delete(path, np.s_[1 : int(len(path) * min(0.34, 0.06 + 0.12 * abs(z[7])))], axis=0)
+    return _with_tail(_directed(_turned(path, np.pi * u[4]), u[5]), rng)
 
 
 def polygon(rng: np.random.Generator) -> FloatArray:
@@ -79,8 +86,9 @@ def polygon(rng: np.random.Generator) -> FloatArray:
     start = float(int(u[1] * len(corners)))
     if u[2] < RULE.mid_side:
         start += 0.15 + 0.7 * u[3]
-    overlap = 0.004 + RULE.closing * 0.7 * float(rng.standard_normal())
-    path = _bent_sides(ideals.polygon(corners, start, max(-0.09, overlap)), rng)
+    spread = RULE.closing * (2.0 if u[5] < 0.2 else 0.8)
+    overlap = 0.004 + spread * float(rng.standard_normal())
+    path = _bent_sides(ideals.polygon(corners, start, max(-0.13, overlap)), rng)
     return _with_tail(_directed(path, u[4]), rng)
 
 
@@ -100,7 +108,7 @@ def spring(rng: np.random.Generator) -> FloatArray:
         if lead == 0.0:
             # Without leads the first and last legs start from the trough, not from the axis.
             peaks[[0, -1], 1] -= np.array([1, 1 if legs % 2 == 0 else -1]) * width / 2
-        path = _rounded_peaks(peaks) if u[1] > 0.88 else peaks
+        path = _rounded_peaks(peaks) if u[1] > 0.85 and legs >= 7 else peaks
     else:
         loops = 3 + int(6 * u[5] ** 1.5)
         width = float(np.exp(np.log(0.12) + (np.log(0.7) - np.log(0.12)) * u[6]))
@@ -127,14 +135,14 @@ def wire(rng: np.random.Generator) -> FloatArray:
 def arrow(rng: np.random.Generator) -> FloatArray:
     """Arrows in one stroke: straight or bent shaft, head open or closed, its barbs uneven."""
     u, z = rng.random(8), rng.standard_normal(10)
-    head = (0.12 + 0.45 * u[0]) * np.exp(0.2 * z[:2])
-    opening = np.radians(18 + 38 * u[1]) + 0.15 * z[2:4]
+    head = (0.1 + 0.5 * u[0]) * np.exp(0.2 * z[:2])
+    opening = np.radians(14 + 44 * u[1]) + 0.15 * z[2:4]
     tip = np.array([1.0, 0.0])
     first = tip + head[0] * np.array([-np.cos(opening[0]), np.sin(opening[0])])
     second = tip + head[1] * np.array([-np.cos(opening[1]), -np.sin(opening[1])])
     # Many never quite return to the tip between the barbs, or overshoot it.
     again = tip + 0.22 * head.mean() * z[4:6]
-    barbs = [first, second, again] if u[2] < 0.4 else [first, again, second]
+    barbs = [first, second, again] if u[2] < 0.3 else [first, again, second]
     shaft = np.linspace(0.0, 1.0, 16)
     bend = 0.03 * z[6] if u[3] < 0.7 else 0.15 * z[6]
     bowed = np.column_stack([shaft, bend * 4 * shaft * (1 - shaft)])
@@ -234,8 +242,18 @@ def _lone_strokes(pool: str) -> list[list[FloatArray]]:
             ]
             for name in names
         ]
-        _POOLS[pool] = [strokes for strokes in found if strokes]
+        _POOLS[pool] = [
+            strokes
+            for name, strokes in zip(names, found, strict=True)
+            if strokes
+            for _ in range(_weight(name))
+        ]
     return _POOLS[pool]
+
+
+def _weight(name: str) -> int:
+    """How often a symbol is drawn against the others: digits and braces are met most, and are nearest to other kinds."""
+    return 3 if name.isdigit() or name.startswith("brace") else 1
 
 
 RING_OR_TRIANGLE = frozenset({"0", "o", "O", r"\Delta", ".", r"\cdot", r"\ldots"})

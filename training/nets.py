@@ -16,11 +16,9 @@ class StrokeNet(nn.Module):
         super().__init__()
         wide = 2 * width
         self.convolutions = nn.Sequential(
-            *_layer(len(SEQUENCE_CHANNELS), width, 5),
-            nn.MaxPool1d(2),
-            *_layer(width, wide, 5),
-            nn.MaxPool1d(2),
-            *_layer(wide, wide, 3),
+            *_layer(len(SEQUENCE_CHANNELS), width, span=7, stride=2),
+            *_layer(width, wide, span=5, stride=2),
+            *_layer(wide, wide, span=3, stride=1),
         )
         self.overall = nn.Sequential(
             nn.BatchNorm1d(len(GLOBAL_FEATURES) + len(PAGE_FEATURES)),
@@ -42,5 +40,5 @@ def parameters_of(net: nn.Module) -> int:
     return sum(parameter.numel() for parameter in net.parameters())
 
 
-def _layer(inputs: int, outputs: int, span: int) -> list[nn.Module]:
-    return [nn.Conv1d(inputs, outputs, span, padding=span // 2), nn.BatchNorm1d(outputs), nn.ReLU()]
+def _layer(inputs: int, outputs: int, span: int, stride: int) -> list[nn.Module]:
+    return [nn.Conv1d(inputs, outputs, span, stride, span // 2), nn.BatchNorm1d(outputs), nn.ReLU()]
