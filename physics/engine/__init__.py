@@ -1,0 +1,1 @@
+from physics.engine.run import simulate as simulate

@@ -1,0 +1,202 @@
+"""Formulas compiled to a small postfix program over plain floats.
+
+A SymPy tree becomes a tuple of instructions for a stack machine. Nothing is ever handed to
+Python's evaluator, compiling takes microseconds, and whatever is constant is folded while
+compiling. Evaluating never raises: 0/0, an overflow or a root of a negative number gives
+NaN, which the caller must look for.
+
+Names are SI quantities of one body: see `STATE`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sympy
+
+STATE: tuple[str, ...] = ("t", "x", "y", "phi", "v_x", "v_y", "v", "omega")
+"""What a program may read at every step: time (s), centre of mass (m) and angle (rad), velocity
+(m/s), speed (m/s), angular velocity (rad/s)."""
+
+Node = Any
+"""A SymPy tree; SymPy has no types of its own."""
+
+Lookup = Callable[[str], "Node | float | None"]
+"""What a name stands for: a number, another tree, or None when nobody says."""
+
+DEPTH = 200
+"""Deepest nesting that is compiled, definitions included: far beyond handwriting, well within
+Python's own recursion limit."""
+
+
+class ProgramError(ValueError):
+    """A tree that no program can be made of: it says which part, and why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """text: the formula as its reader knows it; code: (operation, operand) in postfix order;
+    unspecified: names that nobody gave a value, and that count as zero."""
+
+    text: str
+    code: tuple[tuple[str, float], ...]
+    unspecified: tuple[str, ...] = ()
+
+    @property
+    def constant(self) -> bool:
+        """Whether the program reads nothing of the motion."""
+        return all(operation != "read" for operation, _ in self.code)
+
+    def value(self, state: Sequence[float]) -> float:
+        """The formula's value for values of `STATE`, in that order; NaN where it has none."""
+        code = self.code
+        if len(code) == 1 and code[0][0] == "push":
+            return code[0][1]
+        try:
+            stack: list[float] = []
+            for operation, operand in code:
+                if operation == "push":
+                    stack.append(operand)
+                elif operation == "read":
+                    stack.append(state[int(operand)])
+                elif operation in BINARY:
+                    right = stack.pop()
+                    stack[-1] = BINARY[operation](stack[-1], right)
+                else:
+                    stack[-1] = UNARY[operation](stack[-1])
+        except (ArithmeticError, ValueError):
+            return math.nan
+        return stack[-1] if math.isfinite(stack[-1]) else math.nan
+
+
+def constant(value: float, text: str | None = None) -> Program:
+    """The program that is always this number."""
+    return Program(f"{value:g}" if text is None else text, (("push", float(value)),))
+
+
+def compile_tree(tree: Node, lookup: Lookup, text: str | None = None) -> Program:
+    """The program of a scalar SymPy tree.
+
+    Names of `STATE` are read from the motion unless `lookup` says something else of them; others
+    are replaced by what `lookup` gives, through any number of definitions; None counts as zero and is
+    listed in `unspecified`. Raises ProgramError for a tree with parts that have no scalar value, or
+    whose definitions go round in a circle.
+    """
+    unspecified: list[str] = []
+    code = _emit(tree, lookup, unspecified, ())
+    return Program(str(tree) if text is None else text, tuple(code), tuple(dict.fromkeys(unspecified)))
+
+
+def _power(base: float, exponent: float) -> float:
+    result = base**exponent
+    return result if isinstance(result, float) else math.nan
+
+
+BINARY: dict[str, Callable[[float, float], float]] = {
+    "add": lambda a, b: a + b,
+    "multiply": lambda a, b: a * b,
+    "power": _power,
+    "atan2": math.atan2,
+    "min": min,
+    "max": max,
+}
+UNARY: dict[str, Callable[[float], float]] = {
+    "sin": math.sin,
+    "cos": math.cos,
+    "tan": math.tan,
+    "cot": lambda a: 1 / math.tan(a),
+    "sec": lambda a: 1 / math.cos(a),
+    "csc": lambda a: 1 / math.sin(a),
+    "asin": math.asin,
+    "acos": math.acos,
+    "atan": math.atan,
+    "sinh": math.sinh,
+    "cosh": math.cosh,
+    "tanh": math.tanh,
+    "exp": math.exp,
+    "log": math.log,
+    "sqrt": math.sqrt,
+    "invert": lambda a: 1 / a,
+    "abs": abs,
+    "sign": lambda a: math.copysign(1.0, a) if a else 0.0,
+    "floor": lambda a: float(math.floor(a)),
+    "ceiling": lambda a: float(math.ceil(a)),
+}
+FUNCTIONS: dict[str, str] = {"Abs": "abs", "norm": "abs", "ln": "log"} | {name: name for name in UNARY}
+"""SymPy's name of a function of one argument -> the operation. The length of a scalar is its size."""
+
+Code = list[tuple[str, float]]
+
+
+def _emit(tree: Node, lookup: Lookup, unspecified: list[str], within: tuple[str, ...]) -> Code:
+    if len(within) > DEPTH:
+        raise ProgramError("a formula nested too deeply to be evaluated")
+    if isinstance(tree, float) or (getattr(tree, "is_number", False) and not tree.args):
+        return [("push", _number(tree))]
+    if isinstance(tree, sympy.Symbol):
+        return _name(tree.name, lookup, unspecified, within)
+    inner = (*within, "")
+    if isinstance(tree, sympy.Add | sympy.Mul | sympy.Min | sympy.Max):
+        operation = {"Add": "add", "Mul": "multiply", "Min": "min", "Max": "max"}[type(tree).__name__]
+        return _fold(operation, [_emit(part, lookup, unspecified, inner) for part in tree.args])
+    if isinstance(tree, sympy.Pow):
+        base, exponent = tree.args
+        inside = _emit(base, lookup, unspecified, inner)
+        if exponent == sympy.Rational(1, 2):
+            return _apply("sqrt", inside)
+        if exponent == -1:
+            return _apply("invert", inside)
+        return _fold("power", [inside, _emit(exponent, lookup, unspecified, inner)])
+    name = type(tree).__name__
+    if name == "atan2":
+        return _fold("atan2", [_emit(part, lookup, unspecified, inner) for part in tree.args])
+    if name in FUNCTIONS and len(tree.args) == 1:
+        return _apply(FUNCTIONS[name], _emit(tree.args[0], lookup, unspecified, inner))
+    if name == "log" and len(tree.args) == 2:
+        parts = [_apply("log", _emit(part, lookup, unspecified, inner)) for part in tree.args]
+        return _fold("multiply", [parts[0], _apply("invert", parts[1])])
+    raise ProgramError(f"{tree} has no value that is a single number")
+
+
+def _name(name: str, lookup: Lookup, unspecified: list[str], within: tuple[str, ...]) -> Code:
+    if name in within:
+        raise ProgramError(f"{name} is defined by itself")
+    meaning = lookup(name)
+    if meaning is None and name in STATE:
+        return [("read", float(STATE.index(name)))]
+    if meaning is None:
+        unspecified.append(name)
+        return [("push", 0.0)]
+    return _emit(meaning, lookup, unspecified, (*within, name))
+
+
+def _fold(operation: str, parts: list[Code]) -> Code:
+    code = parts[0]
+    for part in parts[1:]:
+        joined: Code = [*code, *part, (operation, 0.0)]
+        code = _folded(joined) if len(code) == len(part) == 1 else joined
+    return code
+
+
+def _apply(operation: str, inside: Code) -> Code:
+    joined: Code = [*inside, (operation, 0.0)]
+    return _folded(joined) if len(inside) == 1 else joined
+
+
+def _folded(code: Code) -> Code:
+    """One number instead of the code, where it reads nothing and has a value."""
+    if any(operation == "read" for operation, _ in code):
+        return code
+    value = Program("", tuple(code)).value(())
+    return code if math.isnan(value) else [("push", value)]
+
+
+def _number(tree: Node) -> float:
+    try:
+        value = float(tree)
+    except (TypeError, ValueError, OverflowError):
+        raise ProgramError(f"{tree} is not a real number") from None
+    return value if math.isfinite(value) else math.nan

@@ -1,0 +1,79 @@
+"""C4: ends of springs and wires are clipped to the boundary of what they are attached to.
+
+An end near a vertex is snapped to it; one on a circle near the point that faces the link's other
+end is snapped there, so that the link pulls through the centre. An end that lies on the
+boundary already is where it is meant to be. Page units.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import hypot, radians, sin
+
+from physics.rectify.correction import Rectified, changes, reshaped
+from sketch.geometry import nearest_on_boundary
+from sketch.page import Component, Sketch
+from sketch.shapes import Circle, Point, Polygon, Shape, Solid, Spring, Wire
+
+
+@dataclass(frozen=True, slots=True)
+class AttachmentRule:
+    """How near is near."""
+
+    vertex: float = 8.0
+    """Page units from a vertex, but at most:"""
+    side: float = 0.2
+    """Share of the shorter of the vertex's two edges."""
+    facing: float = radians(25)
+    """Radians, seen from the circle's centre, between the end and the link's other end."""
+    exact: float = 1e-7
+    """Page units: an end this near to the boundary lies on it."""
+
+
+RULE = AttachmentRule()
+
+
+def attach(sketch: Sketch) -> Rectified:
+    """C4 on every spring and wire of the page."""
+    shapes: dict[str, Shape] = {}
+    for part in sketch.components:
+        if isinstance(part.shape, Spring | Wire):
+            start, end = part.shape.start, part.shape.end
+            holders = [_holder(sketch, label) for label in part.ends]
+            new_start = start if holders[0] is None else _clipped(holders[0], start, end)
+            new_end = end if holders[1] is None else _clipped(holders[1], end, start)
+            if (new_start, new_end) != (start, end) and new_start != new_end:
+                shapes[part.label] = replace(part.shape, start=new_start, end=new_end)
+    after = reshaped(sketch, shapes)
+    return Rectified(after, changes("C4", _why, sketch, after))
+
+
+def _why(part: Component) -> str:
+    return f"{part.label}: its ends are put on the boundary of what they are attached to."
+
+
+def _holder(sketch: Sketch, label: str | None) -> Solid | None:
+    shape = None if label is None else sketch.component(label).shape
+    return shape if isinstance(shape, Circle | Polygon) else None
+
+
+def _clipped(solid: Solid, end: Point, other: Point) -> Point:
+    foot = nearest_on_boundary(solid, end)
+    if hypot(foot[0] - end[0], foot[1] - end[1]) <= RULE.exact:
+        return end
+    if isinstance(solid, Circle):
+        facing = nearest_on_boundary(solid, other)
+        near = 2 * solid.radius * sin(RULE.facing / 2)
+        return facing if hypot(foot[0] - facing[0], foot[1] - facing[1]) <= near else foot
+    return _vertex_near(solid, foot) or foot
+
+
+def _vertex_near(polygon: Polygon, foot: Point) -> Point | None:
+    vertices = polygon.vertices.tolist()
+    nearest, found = RULE.vertex, None
+    for k, (x, y) in enumerate(vertices):
+        sides = [hypot(x - px, y - py) for px, py in (vertices[k - 1], vertices[(k + 1) % len(vertices)])]
+        distance = hypot(x - foot[0], y - foot[1])
+        if distance <= min(nearest, RULE.side * min(sides)):
+            nearest, found = distance, (x, y)
+    return found
