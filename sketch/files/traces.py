@@ -14,7 +14,7 @@ from decimal import Context, Decimal
 
 _VALUE = re.compile(r"\s*([!'\"]?)\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[*?TF])")
 _ORDERS = {"!": 0, "'": 1, '"': 2}
-_WIDE = Context(prec=400)
+_WIDE = Context(prec=700)
 """Digits enough to add any two float64 in decimal without rounding."""
 
 
@@ -65,12 +65,15 @@ def points(text: str, regular: int, intermittent: int = 0) -> list[list[Decimal 
             raise TraceError(
                 f"point {index} ({written.strip()[:40]!r}) has {len(values)} values; the format has {regular} channels"
             )
-        found.append(
-            [
-                None if value in ("?", "T", "F") else channel.take(mark, value)
-                for channel, (mark, value) in zip(channels, values[:regular], strict=True)
-            ]
-        )
+        try:
+            found.append(
+                [
+                    None if value in ("?", "T", "F") else channel.take(mark, value)
+                    for channel, (mark, value) in zip(channels, values[:regular], strict=True)
+                ]
+            )
+        except ArithmeticError:
+            raise TraceError(f"point {index} holds a number too large to reckon with") from None
     return found
 
 

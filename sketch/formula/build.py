@@ -25,8 +25,6 @@ class BuildLimits:
     """Largest numerator or denominator: beyond it no float64 holds the number."""
     logarithm_bits: int = 10
     """The same for numbers beside a logarithm inside exp: SymPy turns exp(n·ln 3) into 3ⁿ in a product."""
-    root: int = 64
-    """Highest root of a number; SymPy factors a number to take its root."""
 
 
 LIMITS = BuildLimits()
@@ -73,8 +71,6 @@ def power(base: Basic, exponent: Basic) -> Basic:
     if isinstance(exponent, sympy.Rational):
         if _bits(base) * max(1, abs(int(exponent.p)) // int(exponent.q)) > LIMITS.bits:
             raise Unbuildable(f"the power is too large a number; at most {LIMITS.bits} bits are held")
-        if exponent.q > LIMITS.root and _bits(base) > 1:
-            raise Unbuildable(f"a root higher than {LIMITS.root} of a number is not taken")
         if exponent.q > 1 and base.is_negative:
             raise Unbuildable("a negative number has no real root")
     result = sympy.Pow(base, exponent)

@@ -12,7 +12,7 @@ from sketch.formula.parse import LIMITS, parse
 from sketch.formula.print import latex, plain
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(trees)
 def test_parse_is_inverse_to_plain(tree: Basic) -> None:
     text = plain(tree)
@@ -21,7 +21,7 @@ def test_parse_is_inverse_to_plain(tree: Basic) -> None:
     assert text.isascii()
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(trees)
 def test_parse_is_inverse_to_latex(tree: Basic) -> None:
     text = latex(tree)
