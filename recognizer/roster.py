@@ -3,7 +3,10 @@ libraries cost nothing to whoever runs another."""
 
 from __future__ import annotations
 
+import importlib
+import sys
 from collections.abc import Callable
+from typing import Any
 
 from recognizer.claims import Recognizer
 
@@ -34,9 +37,37 @@ ROSTER: dict[str, Callable[[], Recognizer]] = {
 
 
 def recognizer(name: str) -> Recognizer:
-    """The rival of that name, ready to recognize. Raises ValueError naming the known ones."""
+    """The rival of that name, ready to recognize.
+
+    name: one of `ROSTER`, or anybody's own as "module:Class" (or "module:function"), importable from
+    where Python runs and called without arguments. Raises ValueError that says what is wrong with the
+    name or what the object lacks of the `Recognizer` protocol.
+    """
+    if name in ROSTER:
+        return ROSTER[name]()
+    if ":" in name:
+        return _foreign(name)
+    raise ValueError(
+        f"no recognizer is called {name!r}; known are {', '.join(ROSTER)}, or module:Class for one of your own"
+    )
+
+
+def _foreign(name: str) -> Recognizer:
+    """A recognizer that is not ours, found by "module:attribute" (the working directory counts)."""
+    module_name, _, attribute = name.partition(":")
+    if "" not in sys.path:
+        sys.path.insert(0, "")
     try:
-        make = ROSTER[name]
-    except KeyError:
-        raise ValueError(f"no recognizer is called {name!r}; known are {', '.join(ROSTER)}") from None
-    return make()
+        module = importlib.import_module(module_name)
+    except ImportError as error:
+        raise ValueError(f"{name!r} cannot be imported: {error}") from None
+    make = getattr(module, attribute, None)
+    if not callable(make):
+        raise ValueError(f"{module_name!r} has no class or function {attribute!r} that makes a recognizer")
+    found: Any = make()
+    for member in ("name", "claims", "recognize"):
+        if not hasattr(found, member):
+            raise ValueError(
+                f"{name!r} has no {member!r}; a recognizer needs name, claims and recognize(ink)"
+            )
+    return found
