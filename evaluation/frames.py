@@ -7,29 +7,30 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import assert_never
 
 import numpy as np
 
+from physics.formula.meaning import PER_METRE
 from physics.pipeline import Motion
+from sketch.figures import Pose, posed
 from sketch.geometry import bounding_box, centroid
 from sketch.ink import FloatArray
 from sketch.page import Component
-from sketch.shapes import Arrow, Circle, Point, Polygon, Spring, Wire, outline
+from sketch.shapes import Arrow, Circle, Point, Polygon, Solid, Spring, Wire, outline
 
-PER_METRE = 100.0
-"""Page units in a metre."""
+Spoke = tuple[Point, Point]
 
 
 @dataclass(frozen=True, slots=True)
 class Frame:
     """seconds; components: at their places, links that are broken left out; spokes: from a moving
     circle's centre to the same spot of its rim, so that its turning is seen; trails: the way each
-    moving body's centre has come, (k, 2) page units; broken: links that broke by now, as they last
-    stood."""
+    moving body's centre has come, (k, 2) page units; broken: labels of the links that broke by now."""
 
     seconds: float
     components: tuple[Component, ...]
-    spokes: tuple[tuple[Point, Point], ...]
+    spokes: tuple[Spoke, ...]
     trails: tuple[FloatArray, ...]
     broken: tuple[str, ...]
 
@@ -39,12 +40,12 @@ def frame(motion: Motion, seconds: float) -> Frame:
     trajectory = motion.trajectory
     k = int(np.argmin(np.abs(trajectory.times - seconds)))
     components: list[Component] = []
-    spokes: list[tuple[Point, Point]] = []
+    spokes: list[Spoke] = []
     broken: list[str] = []
     for component in motion.rectified.components:
         match component.shape:
-            case Circle() | Polygon():
-                moved, spoke = _solid(component, motion, k)
+            case Circle() | Polygon() as solid:
+                moved, spoke = _solid(component, solid, motion, k)
                 components.append(moved)
                 spokes.extend(spoke)
             case Spring() | Wire():
@@ -55,6 +56,8 @@ def frame(motion: Motion, seconds: float) -> Frame:
                     components.append(link)
             case Arrow():
                 components.append(component)
+            case _:
+                assert_never(component.shape)
     trails = tuple(
         to_page(trajectory.path(part.label)[: k + 1])
         for part in motion.rectified.components
@@ -90,24 +93,19 @@ def _box(shown: Sequence[Frame]) -> tuple[FloatArray, FloatArray]:
     return bounding_box(np.concatenate(points)) if points else (np.zeros(2), np.full(2, 100.0))
 
 
-def _solid(component: Component, motion: Motion, k: int) -> tuple[Component, list[tuple[Point, Point]]]:
+def _solid(component: Component, solid: Solid, motion: Motion, k: int) -> tuple[Component, list[Spoke]]:
     """The solid at frame k, and its spoke if it is a circle that may move."""
     if component.label not in motion.trajectory.bodies or component.fixed:
         return component, []
     x, y, angle = motion.trajectory.poses[k, motion.trajectory.column(component.label)].tolist()
-    centre = to_page(np.array([x, y]))
-    match component.shape:
-        case Circle(_, radius):
-            rim = centre + radius * np.array([np.cos(angle), -np.sin(angle)])
-            place = _point(centre)
-            return replace(component, shape=Circle(place, radius)), [(place, _point(rim))]
-        case Polygon(vertices=vertices):
-            cos, sin = np.cos(angle), np.sin(angle)
-            turn = np.array([[cos, sin], [-sin, cos]])  # anti-clockwise where y is down
-            moved = centre + (vertices - centroid(vertices)) @ turn.T
-            return replace(component, shape=Polygon(moved)), []
-        case _:
-            return component, []
+    centre = solid.centre if isinstance(solid, Circle) else centroid(solid.vertices)
+    dx, dy = (to_page(np.array([x, y])) - centre).tolist()
+    moved = posed(solid, Pose(dx, dy, -angle))
+    spokes: list[Spoke] = []
+    if isinstance(moved, Circle):
+        rim = np.add(moved.centre, moved.radius * np.array([np.cos(angle), -np.sin(angle)]))
+        spokes.append((moved.centre, _point(rim)))
+    return replace(component, shape=moved), spokes
 
 
 def _link(component: Component, motion: Motion, k: int) -> Component | None:

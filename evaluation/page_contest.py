@@ -11,13 +11,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
+from data_gen.pages import Page
 from evaluation.metrics.diagram import DiagramMatch, diagram_match
 from evaluation.metrics.geometry import GeometryError, geometry_error
 from evaluation.metrics.matching import match_components
 from evaluation.metrics.motion import AT, MotionError, motion_error, same_outcome, until
 from evaluation.parallel import Progress, in_parallel, silent
 from evaluation.suites import PageSuite
-from data_gen.pages import Page
 from physics.outcome import Outcome, outcome
 from physics.pipeline import Motion, move
 from recognizer.claims import Recognizer

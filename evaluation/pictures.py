@@ -1,70 +1,46 @@
 """Pictures of a motion: moments side by side as SVG, and an animation as GIF.
 
-Both draw the same marks: what stands where at an instant. Frame: page units, y down.
+Frame: page units, y down.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from io import BytesIO
-from typing import Literal, assert_never
 
 import numpy as np
-from PIL import Image, ImageDraw
+from PIL import Image, ImageColor, ImageDraw
 
-from data_gen.ideals import arrow, zigzag
 from evaluation.frames import Frame, frames, view
 from evaluation.parallel import Progress, silent
 from physics.pipeline import Motion
+from sketch.figures import COLOURS, Pen, coil, draw_path, draw_shapes
 from sketch.ink import FloatArray
 from sketch.page import Component
-from sketch.shapes import Arrow, Circle, Polygon, Spring, Wire, outline
-
-Role = Literal["fixed", "movable", "spring", "wire", "arrow", "spoke", "trail"]
-
-
-@dataclass(frozen=True, slots=True)
-class Pen:
-    """stroke and fill: colours (fill "" for none); width: as a share of the picture's width."""
-
-    stroke: str
-    width: float
-    fill: str = ""
-
-
-PENS: dict[Role, Pen] = {
-    "fixed": Pen("#6b665d", 0.005, "#ddd8cc"),
-    "movable": Pen("#2763a8", 0.008, "#d6e4f5"),
-    "spring": Pen("#3b8c62", 0.006),
-    "wire": Pen("#a8702a", 0.006),
-    "arrow": Pen("#8a5bb0", 0.006),
-    "spoke": Pen("#2763a8", 0.005),
-    "trail": Pen("#9dbfe6", 0.005),
-}
-
-
-@dataclass(frozen=True, slots=True)
-class Mark:
-    """A polyline, (n, 2) page units, and what it stands for; solids are closed and filled."""
-
-    role: Role
-    points: FloatArray
+from sketch.shapes import Circle, Polygon, Spring, outline
 
 
 @dataclass(frozen=True, slots=True)
 class PictureLayout:
-    """Sizes of strips and animations."""
+    """How strips and animations are laid out."""
 
     moments: int = 5
     """Frames in a strip: start, end, and enough between to see a bounce."""
-    gap: float = 0.04
-    """Between frames, as a share of a frame's width."""
-    caption: float = 0.1
-    """Height of the line that tells the time, as a share of a frame's width."""
+    points: float = 150.0
+    """The width of a strip's frame, of which the pen's thin line is one."""
+    gap: float = 8.0
+    """Between frames, in points."""
+    caption: float = 16.0
+    """Height of the line that tells the time, in points."""
+    trail: str = "#9a9a9a"
+    paper: str = "#ffffff"
+    caption_colour: str = "#6d685f"
     pixels: int = 480
     """Width of an animation."""
     oversampling: int = 2
     """Drawn so many times larger and reduced: PIL does not smooth its lines."""
+    line: float = 2.5
+    """Width of an animation's lines, pixels."""
     step: float = 0.04
     """Seconds between two frames of an animation: what every viewer of GIF can show."""
     hold: float = 1.0
@@ -74,7 +50,6 @@ class PictureLayout:
 
 
 LAYOUT = PictureLayout()
-PAPER = "#ffffff"
 
 
 def strip(motion: Motion, seconds: float, layout: PictureLayout = LAYOUT) -> str:
@@ -82,35 +57,34 @@ def strip(motion: Motion, seconds: float, layout: PictureLayout = LAYOUT) -> str
     that every moving body has come."""
     shown = frames(motion, seconds, layout.moments)
     left, top, wide, high = view(shown)
-    advance = wide * (1 + layout.gap)
-    full = advance * (len(shown) - 1) + wide
-    tall = high + layout.caption * wide
+    pen = Pen(wide / layout.points)
+    gap, caption = layout.gap * pen.unit, layout.caption * pen.unit
+    full, tall = len(shown) * (wide + gap) - gap, high + caption
+    number = pen.number
     parts = [
         (
-            f'<svg xmlns="http://www.w3.org/2000/svg" class="strip" viewBox="0 0 {full:.1f} {tall:.1f}" role="img" '
-            f'aria-label="{len(shown)} moments of the motion" font-family="system-ui, sans-serif">'
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {number(full)} {number(tall)}" role="img" '
+            f'aria-label="{len(shown)} moments of the motion">'
         ),
-        f'<rect width="{full:.1f}" height="{tall:.1f}" fill="{PAPER}"/>',
+        f'<rect width="{number(full)}" height="{number(tall)}" fill="{layout.paper}"/>',
     ]
     for k, one in enumerate(shown):
-        x = k * advance
+        x = k * (wide + gap)
         parts.append(
-            f'<svg x="{x:.1f}" width="{wide:.1f}" height="{high:.1f}" '
-            f'viewBox="{left:.1f} {top:.1f} {wide:.1f} {high:.1f}">'
+            f'<svg x="{number(x)}" y="0" width="{number(wide)}" height="{number(high)}" '
+            f'viewBox="{number(left)} {number(top)} {number(wide)} {number(high)}">'
         )
-        parts.extend(_svg_mark(mark, wide) for mark in marks(one))
+        parts.extend(_drawn(one, pen, layout, names=k == 0))
         parts.append("</svg>")
-        if k:
-            edge = x - layout.gap * wide / 2
-            parts.append(
-                f'<line x1="{edge:.1f}" y1="0" x2="{edge:.1f}" y2="{tall:.1f}" stroke="#e4dfd4" '
-                f'stroke-width="{0.006 * wide:.2f}"/>'
-            )
         parts.append(
-            f'<text x="{x + wide / 2:.1f}" y="{high + 0.72 * layout.caption * wide:.1f}" text-anchor="middle" '
-            f'font-size="{0.6 * layout.caption * wide:.1f}" fill="#6d685f">{one.seconds:.2f} s</text>'
+            f'<text x="{number(x + wide / 2)}" y="{number(tall - 0.35 * caption)}" text-anchor="middle" '
+            f'font-family="system-ui, sans-serif" font-size="{number(0.55 * caption)}" '
+            f'fill="{layout.caption_colour}">{one.seconds:.2f} s</text>'
         )
-    return "".join(parts) + "</svg>"
+        if k:
+            edge = np.array([[x - gap / 2, 0], [x - gap / 2, tall]])
+            parts.append(draw_path(edge, pen, "#e4dfd4", 0.6))
+    return "".join(parts) + "</svg>\n"
 
 
 def animation(
@@ -137,37 +111,15 @@ def animation(
     return stream.getvalue()
 
 
-def marks(one: Frame) -> list[Mark]:
-    """What there is to draw, from the back to the front."""
-    drawn = [Mark("trail", trail) for trail in one.trails if len(trail) > 1]
-    drawn += [_mark(component) for component in sorted(one.components, key=lambda part: not part.fixed)]
-    return drawn + [Mark("spoke", np.array(spoke)) for spoke in one.spokes]
-
-
-def _mark(component: Component) -> Mark:
-    match component.shape:
-        case Circle() | Polygon():
-            return Mark("fixed" if component.fixed else "movable", outline(component.shape, 48)[:-1])
-        case Spring(start, end, coils, width):
-            return Mark("spring", zigzag(start, end, max(2, round(2 * coils)), width))
-        case Wire(start, end):
-            return Mark("wire", np.array([start, end]))
-        case Arrow(start, end):
-            length = float(np.hypot(end[0] - start[0], end[1] - start[1]))
-            return Mark("arrow", arrow(start, end, 0.15 * length, 0.5))
-        case _:
-            assert_never(component.shape)
-
-
-def _svg_mark(mark: Mark, wide: float) -> str:
-    pen = PENS[mark.role]
-    points = mark.points if mark.role != "trail" else _thinned(mark.points, 0.004 * wide)
-    path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points.tolist())
-    name = "polygon" if pen.fill else "polyline"
-    return (
-        f'<{name} points="{path}" fill="{pen.fill or "none"}" stroke="{pen.stroke}" '
-        f'stroke-width="{pen.width * wide:.2f}" stroke-linejoin="round" stroke-linecap="round"/>'
-    )
+def _drawn(one: Frame, pen: Pen, layout: PictureLayout, names: bool) -> list[str]:
+    """A frame's pieces of SVG, from the back to the front."""
+    trails = [
+        draw_path(_thinned(trail, pen.unit), pen, layout.trail, 1.0, dots=True)
+        for trail in one.trails
+        if len(trail) > 1
+    ]
+    spokes = [draw_path(spoke, pen, COLOURS["circle"]) for spoke in one.spokes]
+    return [*trails, draw_shapes(one.components, pen, names=names), *spokes]
 
 
 def _thinned(points: FloatArray, step: float) -> FloatArray:
@@ -183,15 +135,35 @@ def _image(one: Frame, box: tuple[float, float, float, float], layout: PictureLa
     left, top, wide, high = box
     size = (layout.pixels, max(1, round(layout.pixels * high / wide)))
     scale = layout.oversampling * layout.pixels / wide
-    image = Image.new("RGB", (layout.oversampling * size[0], layout.oversampling * size[1]), PAPER)
+    image = Image.new("RGB", (layout.oversampling * size[0], layout.oversampling * size[1]), layout.paper)
     pencil = ImageDraw.Draw(image)
-    for mark in marks(one):
-        pen = PENS[mark.role]
-        points = [(float(x), float(y)) for x, y in (mark.points - [left, top]) * scale]
-        thick = max(2, round(pen.width * wide * scale))
-        if pen.fill:
-            pencil.polygon(points, fill=pen.fill)
-            points.append(points[0])
-        pencil.line(points, fill=pen.stroke, width=thick, joint="curve")
-    reduced = image.resize(size, Image.Resampling.LANCZOS)
-    return reduced.quantize(colors=64, dither=Image.Dither.NONE)
+    thick = round(layout.line * layout.oversampling)
+
+    def pixels(points: FloatArray) -> list[tuple[float, float]]:
+        return [(float(x), float(y)) for x, y in (points - [left, top]) * scale]
+
+    for trail in one.trails:
+        if len(trail) > 1:
+            pencil.line(pixels(trail), fill=layout.trail, width=max(1, thick // 3))
+    for part in sorted(one.components, key=lambda part: isinstance(part.shape, Circle | Polygon)):
+        colour, points = COLOURS[part.kind], pixels(_outline(part))
+        if isinstance(part.shape, Circle | Polygon):
+            pencil.polygon(points, fill=_tint(colour, 0.28 if part.fixed else 0.12))
+        pencil.line(points, fill=colour, width=thick, joint="curve")
+    for spoke in one.spokes:
+        pencil.line(pixels(np.array(spoke)), fill=COLOURS["circle"], width=max(1, thick // 2))
+    return image.resize(size, Image.Resampling.LANCZOS).quantize(colors=64, dither=Image.Dither.NONE)
+
+
+def _outline(part: Component) -> FloatArray:
+    return coil(part.shape) if isinstance(part.shape, Spring) else outline(part.shape)
+
+
+def _tint(colour: str, share: float) -> tuple[int, int, int]:
+    """The colour thinned on white paper."""
+    red, green, blue = ImageColor.getrgb(colour)[:3]
+    return (_mixed(red, share), _mixed(green, share), _mixed(blue, share))
+
+
+def _mixed(channel: int, share: float) -> int:
+    return round(255 - share * (255 - channel))

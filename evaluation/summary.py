@@ -7,9 +7,9 @@ from dataclasses import asdict
 from typing import Any
 
 from evaluation.contest import Contest
+from evaluation.metrics.strokes import StrokeScores
 from evaluation.page_scores import by_problem, summarize
 from evaluation.stroke_contest import DIAGRAM_KINDS, Pairing, StrokeResult, pairings
-from evaluation.metrics.strokes import StrokeScores
 from evaluation.suites import StrokeSuite
 from sketch.page import STROKE_KINDS
 

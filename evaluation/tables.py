@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from evaluation.stroke_contest import DIAGRAM_KINDS, StrokeResult, pairings
 from evaluation.metrics.strokes import StrokeScores
+from evaluation.stroke_contest import DIAGRAM_KINDS, StrokeResult, pairings
 from evaluation.suites import StrokeSuite
 from evaluation.table import UNKNOWN, Cell, Table, column, table
 from sketch.page import STROKE_KINDS, StrokeKind

@@ -20,6 +20,8 @@ recognizers by what comes out. Without a command: inklined compare."""
 
 REPEATED = ("--ink", "--recognizer")
 """Options that may be given several values at once: --recognizer paper learned."""
+INTERRUPTED = 130
+"""What a shell reports for a process that SIGINT ended."""
 
 app = typer.Typer(
     name="inklined",
@@ -49,8 +51,15 @@ def run(arguments: Sequence[str]) -> int:
             raise
         line, code = _verdict(error)
         if line:
-            print(f"inklined: {line}", file=sys.stderr)  # noqa: T201 - this is the terminal
+            _complain(line)
+    else:
+        if code == INTERRUPTED:  # typer has caught the signal and says it by this code
+            _complain("interrupted")
     return code if isinstance(code, int) else 0
+
+
+def _complain(line: str) -> None:
+    print(f"inklined: {line}", file=sys.stderr)  # noqa: T201 - this is the terminal
 
 
 def spread(arguments: Sequence[str]) -> list[str]:
@@ -71,6 +80,7 @@ def spread(arguments: Sequence[str]) -> list[str]:
 def _verdict(error: BaseException) -> tuple[str, int]:
     """One line for a person, and the exit code."""
     from inklined.output import OutputError
+    from physics.scene import SceneError
     from sketch.files.errors import FileError
     from sketch.formula.parse import FormulaError
     from sketch.ink import InkError
@@ -81,8 +91,16 @@ def _verdict(error: BaseException) -> tuple[str, int]:
         case typer.TyperException():
             return _one_line(error.format_message()) + " (--help shows the options)", 2
         case KeyboardInterrupt() | typer.Abort():
-            return "interrupted", 130
-        case FileError() | InkError() | SketchError() | ShapeError() | FormulaError() | OutputError():
+            return "interrupted", INTERRUPTED
+        case (
+            FileError()
+            | InkError()
+            | SketchError()
+            | ShapeError()
+            | FormulaError()
+            | SceneError()
+            | OutputError()
+        ):
             return _one_line(str(error)), 1
         case BrokenPipeError():
             # Whoever read our output has gone: say nothing, and let Python's own flush say nothing.

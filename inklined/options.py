@@ -8,7 +8,6 @@ from typing import TypeVar
 
 import typer
 
-
 Name = TypeVar("Name", bound=str)
 
 

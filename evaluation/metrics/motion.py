@@ -13,6 +13,8 @@ import numpy as np
 
 from evaluation.metrics.geometry import diagram_size
 from evaluation.metrics.matching import match_components
+from physics.build import to_metres
+from physics.formula.meaning import PER_METRE
 from physics.outcome import Outcome
 from physics.pipeline import Motion
 from physics.trajectory import Energy, Trajectory
@@ -26,8 +28,6 @@ AT = 2.0
 WORST = 1.0
 """The error of a body is capped at the diagram's whole size; a body that is movable on one side and
 has no counterpart on the other has this error."""
-PER_METRE = 100.0
-"""Page units in a metre."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,9 +118,9 @@ def _place(motion: Motion, label: str, seconds: float) -> FloatArray:
         return np.array([np.interp(seconds, trajectory.times, path[:, axis]) for axis in (0, 1)])
     match component.shape:
         case Circle(centre, _):
-            x, y = centre
+            return np.array(to_metres(centre))
         case Polygon(vertices=vertices):
             x, y = centroid(vertices).tolist()
+            return np.array(to_metres((x, y)))
         case _:
             raise TypeError(f"{label} is no solid, it has no centre")
-    return np.array([x, -y]) / PER_METRE

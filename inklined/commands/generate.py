@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
@@ -38,10 +39,10 @@ def strokes(
     from inklined.terminal import out, progress
     from sketch.files import jsonl
     from sketch.ink import Ink
-    from sketch.page import STROKE_KINDS
+    from sketch.page import STROKE_KINDS, StrokeKind
 
-    kinds = known("--kind", kind or (), STROKE_KINDS)
-    mix = {name: 1 / len(kinds) for name in kinds} if kinds else EQUAL
+    kinds: tuple[StrokeKind, ...] = known("--kind", kind or (), STROKE_KINDS)
+    mix: Mapping[StrokeKind, float] = {name: 1 / len(kinds) for name in kinds} if kinds else EQUAL
     check_writable(file)
     rows: list[jsonl.Row] = []
     with progress() as tell:

@@ -48,12 +48,7 @@ def analyze(
     import json
 
     from inklined.output import check_writable, write_text
-    from inklined.show import page_json, page_tables
-    from inklined.terminal import as_rich
-    from inklined.terminal import out as terminal
     from recognizer.roster import ROSTER
-    from sketch import svg as picture
-    from sketch.files import document
 
     known("--recognizer", [recognizer], ROSTER)
     there([file])
@@ -61,6 +56,12 @@ def analyze(
     for target in (svg, out, None if to_terminal else json_file):
         if target:
             check_writable(target, [file])
+
+    from inklined.show import page_json, page_tables
+    from inklined.terminal import as_rich
+    from inklined.terminal import out as terminal
+    from sketch import svg as picture
+    from sketch.files import document
 
     page = read(file, recognizer)
     if svg:
@@ -90,20 +91,21 @@ def simulate(
     gif: Annotated[Path | None, typer.Option(help="Write the motion as an animation, in real time.")] = None,
 ) -> None:
     """Correct a page, set it in motion and say what happens."""
-    from evaluation.pictures import animation, strip
-    from evaluation.words import happened
-    from inklined.api import move
     from inklined.output import check_writable, replacing, write_text
-    from inklined.terminal import out, progress
-    from physics.outcome import outcome
     from recognizer.roster import ROSTER
-    from sketch.files.pages import open_page
 
     known("--recognizer", [recognizer] if recognizer else (), ROSTER)
     there([file])
     for target in (svg, gif):
         if target:
             check_writable(target, [file])
+
+    from evaluation.pictures import animation, strip
+    from evaluation.words import happened
+    from inklined.api import move
+    from inklined.terminal import out, progress
+    from physics.outcome import outcome
+    from sketch.files.pages import open_page
 
     with progress() as tell:
         tell("Reading", 0, 1)
@@ -122,7 +124,11 @@ def simulate(
     for line in happened(motion, outcome(motion)):
         out.print(line, markup=False)
     for correction in motion.corrections:
-        out.print(f"Corrected: {correction}", style="dim", markup=False)
+        out.print(
+            f"Corrected: {correction.why} ({correction.rule})",
+            style="dim",
+            markup=False,
+        )
 
 
 def read(file: Path, recognizer: str) -> Sketch:

@@ -2,20 +2,42 @@
 
 from __future__ import annotations
 
+import contextlib
 import gzip
+import io
 import json
 import os
 import re
 import subprocess
 import sys
 from pathlib import Path
+from unittest.mock import patch
 
 import pytest
 
-REPO = Path(__file__).parents[2]
+from inklined.cli import run
+from recognizer.roster import ROSTER
 
 
 def inklined(*arguments: object, cwd: Path) -> subprocess.CompletedProcess[str]:
+    """The command within this process: as in its own, but for the seconds that a process costs."""
+    out, err = io.StringIO(), io.StringIO()
+    words = [str(argument) for argument in arguments]
+    with (
+        contextlib.chdir(cwd),
+        contextlib.redirect_stdout(out),
+        contextlib.redirect_stderr(err),
+        patch.dict(os.environ, {"COLUMNS": "120", "NO_COLOR": "1"}),
+    ):
+        os.environ.pop("INKLINED_DEBUG", None)
+        code = run(words)
+    finished = subprocess.CompletedProcess(words, code, out.getvalue(), err.getvalue())
+    assert "Traceback" not in finished.stdout + finished.stderr
+    return finished
+
+
+def process(*arguments: object, cwd: Path) -> subprocess.CompletedProcess[str]:
+    """The command as a process of its own."""
     environment = {**os.environ, "COLUMNS": "120", "NO_COLOR": "1"}
     environment.pop("INKLINED_DEBUG", None)
     finished = subprocess.run(
@@ -248,3 +270,38 @@ def test_importing_inklined_is_quick():
         for _ in range(3)
     )
     assert spent < 0.3
+
+
+def test_as_a_process_it_ends_with_the_same_code_and_line(tmp_path):
+    for arguments in (["analyze", "nowhere.inklined"], ["compare", "--strkes"], ["dance"]):
+        alone, within = process(*arguments, cwd=tmp_path), inklined(*arguments, cwd=tmp_path)
+        assert (alone.returncode, alone.stderr) == (within.returncode, within.stderr)
+
+
+class Failing:
+    """A rival that cannot recognize anything."""
+
+    name = "failing"
+    claims = frozenset()
+
+    def __init__(self, error: BaseException) -> None:
+        self.error = error
+
+    def recognize(self, ink):  # noqa: ARG002 - the signature of a recognizer
+        raise self.error
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "words"),
+    [
+        (ZeroDivisionError("by hand"), 70, "ZeroDivisionError: by hand; INKLINED_DEBUG=1 shows where"),
+        (ValueError("of its own"), 70, "INKLINED_DEBUG=1"),
+        (KeyboardInterrupt(), 130, "interrupted"),
+        (OSError(28, "No space left on device", "page.svg"), 1, "page.svg: No space left on device"),
+    ],
+)
+def test_whatever_fails_within_is_one_line_and_a_code(error, code, words, tmp_path):
+    (tmp_path / "dot.jsonl").write_text('{"label": "tap", "strokes": [[[3, 4, null]]]}\n')
+    with patch.dict(ROSTER, failing=lambda: Failing(error)):
+        line = refusal(inklined("analyze", "dot.jsonl", "--recognizer", "failing", cwd=tmp_path), code)
+    assert words in line
