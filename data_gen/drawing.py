@@ -48,6 +48,8 @@ class DrawingRule:
     """Ends are never further off than this, page units."""
     regard: float = 20.0
     """Page units between a boundary that was meant and its ink that the eye bridges."""
+    corner_pull: float = 0.5
+    """How much nearness counts against sticking out when the eye looks for a corner: hooks are not one."""
     zigzag_uneven: float = 0.12
     """Standard deviation of the logarithm of a tooth's size and advance."""
     upright: float = 0.75
@@ -80,25 +82,39 @@ def paths(shape: Shape, writer: Writer, rng: np.random.Generator) -> list[FloatA
             assert_never(shape)
 
 
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """A solid as it was meant and as it has come to be on paper."""
+
+    shape: Solid
+    strokes: Sequence[Stroke]
+
+
 def led_to(
-    link: Spring | Wire, ends: tuple[str | None, str | None], drawn: Mapping[str, Sequence[Stroke]]
+    link: Spring | Wire, ends: tuple[str | None, str | None], solids: Mapping[str, Drawn]
 ) -> Spring | Wire:
     """The link as meant once the solids it joins are on paper: it ends at their ink, where that is near.
 
-    ends: labels of the solids at start and end; drawn: the strokes of each solid.
+    ends: labels of the solids at start and end; a corner that was meant is led to the corner drawn.
     """
     start, end = (
-        spot if label is None else _nearest_ink(spot, drawn[label])
+        spot if label is None else _seen(spot, solids[label])
         for spot, label in zip((link.start, link.end), ends, strict=True)
     )
     return link if start == end else replace(link, start=start, end=end)
 
 
-def _nearest_ink(spot: Point, strokes: Sequence[Stroke]) -> Point:
-    ink = np.concatenate([resample(stroke.points, 128) for stroke in strokes])
-    away = np.linalg.norm(ink - spot, axis=1)
-    nearest = int(np.argmin(away))
-    return (float(ink[nearest, 0]), float(ink[nearest, 1])) if away[nearest] <= RULE.regard else spot
+def _seen(spot: Point, solid: Drawn) -> Point:
+    """The ink that stands for a spot of the boundary: the nearest, or at a corner what sticks out most."""
+    ink = np.concatenate([resample(stroke.points, 128) for stroke in solid.strokes])
+    steps = ink - spot
+    away = np.linalg.norm(steps, axis=1)
+    cost = away
+    if isinstance(solid.shape, Polygon) and np.isclose(solid.shape.vertices, spot).all(axis=1).any():
+        outward = spot - centroid(solid.shape.vertices)
+        cost = RULE.corner_pull * away - steps @ outward / np.linalg.norm(outward)
+    best = int(np.argmin(np.where(away <= RULE.regard, cost, np.inf)))
+    return (float(ink[best, 0]), float(ink[best, 1])) if away[best] <= RULE.regard else spot
 
 
 def tap(shape: Solid, rng: np.random.Generator) -> FloatArray:

@@ -146,9 +146,13 @@ def _inked(meant: Problem, writer: Writer, rng: np.random.Generator) -> Sketch:
     ]
     solids = _drawn(solids, rng)
     # A link is drawn to where the solids have come to be on paper.
-    outlines = {meant.components[solid.number].label: solid.strokes for solid in solids}
+    on_paper = {
+        part.label: drawing.Drawn(part.shape, solid.strokes)
+        for solid in solids
+        if isinstance((part := meant.components[solid.number]).shape, Circle | Polygon)
+    }
     links = [
-        component(number, part, drawing.led_to(part.shape, part.ends, outlines))
+        component(number, part, drawing.led_to(part.shape, part.ends, on_paper))
         for number, part in numbered
         if isinstance(part.shape, Spring | Wire)
     ]

@@ -80,7 +80,18 @@ def test_a_tap_lies_inside_its_solid_even_in_a_thin_one():
 def test_a_link_is_led_to_the_ink_of_what_it_joins_and_nowhere_if_that_is_far():
     wire = Wire((0, 0), (100, 0))
     near, far = Stroke([(-6.0, -40), (-6, 40)]), Stroke([(160.0, -40), (160, 40)])
-    led = drawing.led_to(wire, ("A", "B"), {"A": [near], "B": [far]})
+    ball = Circle((500, 500), 5)
+    solids = {"A": drawing.Drawn(ball, [near]), "B": drawing.Drawn(ball, [far])}
+    led = drawing.led_to(wire, ("A", "B"), solids)
     assert led.start == pytest.approx((-6, 0), abs=0.5)
     assert led.end == (100, 0)
     assert drawing.led_to(wire, (None, None), {}) == wire
+
+
+def test_a_link_meant_for_a_corner_is_led_to_the_corner_drawn():
+    box = Polygon([(0, 0), (100, 0), (100, 80), (0, 80)])
+    wire = Wire((-50, -50), (0, 0))
+    for shift in ((-6, -6), (7, -3), (-4, 8), (6, 6)):
+        drawn = Stroke(np.concatenate([box.vertices, box.vertices[:1]]) + shift)
+        led = drawing.led_to(wire, (None, "A"), {"A": drawing.Drawn(box, [drawn])})
+        assert led.end == pytest.approx(shift, abs=3)
