@@ -35,8 +35,8 @@ class FamilyRule:
     """Standard deviation of log(width / height) of circles: most are a little oval, some slim."""
     closing: float = 0.035
     """Standard deviation of the closing error, fraction of the perimeter."""
-    late_ring: float = 0.7
-    """A normal variate above this begins a ring with a chord: one in four."""
+    late_ring: float = 0.8
+    """A normal variate above this makes a ring of few, unevenly seen points: one in five."""
     tail: float = 0.2
     """Share of closed shapes whose pen runs on straight past the closure."""
     mid_side: float = 0.12
@@ -74,8 +74,7 @@ def circle(rng: np.random.Generator) -> FloatArray:
     drift = 1.0 + 0.05 * z[5] * np.linspace(-0.5, 0.5, len(path))
     path = path * drift[:, None]
     if z[6] > RULE.late_ring:
-        # A fast start on a slow device: the first points are missing, a chord stands for them.
-        path = np.delete(path, np.s_[1 : int(len(path) * min(0.34, 0.06 + 0.12 * abs(z[7])))], axis=0)
+        path = _sparse(path, rng)
     return _with_tail(_directed(_turned(path, np.pi * u[4]), u[5]), rng)
 
 
@@ -142,7 +141,7 @@ def arrow(rng: np.random.Generator) -> FloatArray:
     second = tip + head[1] * np.array([-np.cos(opening[1]), -np.sin(opening[1])])
     # Many never quite return to the tip between the barbs, or overshoot it.
     again = tip + 0.22 * head.mean() * z[4:6]
-    barbs = [first, second, again] if u[2] < 0.3 else [first, again, second]
+    barbs = [first, second, again] if u[2] < 0.15 else [first, again, second]
     shaft = np.linspace(0.0, 1.0, 16)
     bend = 0.03 * z[6] if u[3] < 0.7 else 0.15 * z[6]
     bowed = np.column_stack([shaft, bend * 4 * shaft * (1 - shaft)])
@@ -156,8 +155,9 @@ def arrow(rng: np.random.Generator) -> FloatArray:
 
 def tap(rng: np.random.Generator) -> FloatArray:
     """A dot: the pen comes down, hardly moves, and leaves. Its size is set in `strokes`."""
-    count = 1 + int(4 * rng.random() ** 1.5)
-    return np.cumsum(rng.standard_normal((count, 2)), axis=0) / max(1.0, count**0.5)
+    u = rng.random(2)
+    slide = 0.7 * rng.standard_normal((2, 2))
+    return slide[:1] if u[0] < 0.4 else slide
 
 
 def scribble(rng: np.random.Generator) -> FloatArray:
@@ -296,10 +296,22 @@ def _word(rng: np.random.Generator) -> FloatArray:
     return np.concatenate(pieces)
 
 
+def _sparse(path: FloatArray, rng: np.random.Generator) -> FloatArray:
+    """A ring as a slow device sees a quick pen: 12 to 60 points, wide apart where the pen was quick, which
+    is most of all at the start: a long chord stands there."""
+    count = int(12 + 48 * rng.random() ** 1.5)
+    gaps = np.exp(0.35 * rng.standard_normal(count))
+    first = 0.04 + 0.26 * float(rng.random())
+    gaps = np.concatenate([[first], (1 - first) * gaps / gaps.sum()])
+    wanted = np.minimum(np.concatenate([[0.0], np.cumsum(gaps)]), 1.0)
+    place = np.linspace(0.0, 1.0, len(path))
+    return np.column_stack([np.interp(wanted, place, path[:, axis]) for axis in (0, 1)])
+
+
 def _convex_corners(rng: np.random.Generator, which: float) -> FloatArray:
     """Corners of a triangle, rectangle, rhombus, parallelogram or general convex polygon, one unit large."""
     u, z = rng.random(6), rng.standard_normal(16)
-    if which < 0.36:
+    if which < 0.40:
         # Triangles: upright isosceles, right-angled or any whose smallest angle stays above 15 degrees.
         apex = np.array([0.5 + 0.25 * z[0], -np.exp(-0.15 + 0.4 * z[1])])
         if u[0] < 0.3:
@@ -317,7 +329,7 @@ def _convex_corners(rng: np.random.Generator, which: float) -> FloatArray:
         if diamond:
             corners = corners / half * 0.4
     else:
-        count = 4 + int(5 * u[0])
+        count = 4 + int(5 * u[0] ** 1.7)
         gaps = 0.55 + rng.random(count)
         around = np.cumsum(gaps) / gaps.sum() * 2 * np.pi
         corners = 0.5 * np.column_stack([np.cos(around), np.sin(around)])

@@ -108,7 +108,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
         epilog="example: inklined train --seed 1 --out my-net.onnx",
     )
     parser.add_argument("--seed", type=int, default=1, help="everything follows from it (default 1)")
-    parser.add_argument("--strokes", type=int, default=300_000, help="generated strokes to train on")
+    parser.add_argument("--strokes", type=int, default=200_000, help="generated strokes to train on")
     parser.add_argument("--epochs", type=int, default=RULE.epochs, help="times each stroke is looked at")
     parser.add_argument("--threads", type=int, default=os.cpu_count() or 1, help="processor cores to use")
     parser.add_argument(

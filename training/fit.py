@@ -17,12 +17,12 @@ from training.nets import StrokeNet
 class FitRule:
     """How the net is trained."""
 
-    epochs: int = 12
+    epochs: int = 8
     batch: int = 512
     rate: float = 4e-3
     """Peak of a one-cycle learning rate (Smith 2018), AdamW."""
     decay: float = 1e-2
-    smoothing: float = 0.02
+    smoothing: float = 0.01
     """Label smoothing: some drawings of one kind are another kind by anybody's eye."""
 
 
