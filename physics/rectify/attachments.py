@@ -20,9 +20,9 @@ from sketch.shapes import Circle, Point, Polygon, Shape, Solid, Spring, Wire
 class AttachmentRule:
     """How near is near."""
 
-    vertex: float = 8.0
+    vertex: float = 16.0
     """Page units from a vertex, but at most:"""
-    side: float = 0.2
+    side: float = 0.25
     """Share of the shorter of the vertex's two edges."""
     facing: float = radians(25)
     """Radians, seen from the circle's centre, between the end and the link's other end."""

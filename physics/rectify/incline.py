@@ -9,6 +9,7 @@ foot. Page units, y down; the angle is that at the foot, whichever way the incli
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import combinations
 from math import atan2, hypot, pi, radians, tan
 
 import numpy as np
@@ -17,6 +18,7 @@ from physics.formula.meaning import GRAVITY, Meanings, constant_of, lookup
 from physics.rectify.contacts import meant_to_touch
 from physics.rectify.correction import Rectified, changes, moved, reshaped, turn
 from physics.rectify.separation import apart
+from sketch.geometry import signed_area
 from sketch.page import Component, Sketch
 from sketch.shapes import Circle, Point, Polygon
 
@@ -31,6 +33,10 @@ class InclineRule:
     """Radians: an incline flatter than this, or nearer to upright, cannot be drawn."""
     exact: float = 1e-10
     """Radians: an angle this near is left alone (rounding is a thousandth of it)."""
+    whole: float = 0.9
+    """Share of a polygon's area that a triangle in it must fill to be what was meant."""
+    corners: int = 12
+    """Of these a triangle is looked for: a polygon of more corners is none with one blunted."""
     facing: float = radians(20)
     """Radians between the long side's normal and the direction to what rests on it."""
 
@@ -67,6 +73,18 @@ def incline_of(shape: Polygon) -> Incline | None:
     return Incline(foot, corner, top)
 
 
+def triangle_in(shape: Polygon) -> Polygon:
+    """The triangle that a polygon is but for a blunted corner: its largest one, where that is nearly
+    all of it; otherwise the polygon itself."""
+    if len(shape.vertices) == 3:
+        return shape
+    triples = combinations(range(min(len(shape.vertices), RULE.corners)), 3)
+    areas = [(abs(signed_area(shape.vertices[list(triple)])), triple) for triple in triples]
+    area, best = max(areas)
+    whole = abs(signed_area(shape.vertices))
+    return Polygon(shape.vertices[list(best)]) if area >= RULE.whole * whole else shape
+
+
 def tilt(sketch: Sketch, meanings: Meanings) -> Rectified:
     """C3 on every right-angled triangle that an angle is said of."""
     after = sketch
@@ -81,14 +99,15 @@ def tilt(sketch: Sketch, meanings: Meanings) -> Rectified:
 
 
 def _why(part: Component) -> str:
-    if isinstance(part.shape, Polygon) and incline_of(part.shape) is not None:
+    if isinstance(part.shape, Polygon) and incline_of(triangle_in(part.shape)) is not None:
         return f"{part.label}: its incline is given the angle that the page says it has."
     return f"{part.label}: it keeps its place on an incline that was given its angle."
 
 
 def _tilted(sketch: Sketch, label: str, angle: float) -> Sketch:
-    shape = sketch.component(label).shape
-    assert isinstance(shape, Polygon)
+    drawn = sketch.component(label).shape
+    assert isinstance(drawn, Polygon)
+    shape = triangle_in(drawn)
     found = incline_of(shape)
     if found is None:
         return sketch
@@ -101,7 +120,7 @@ def _tilted(sketch: Sketch, label: str, angle: float) -> Sketch:
     by = _direction(new - foot) - _direction(top - foot)
     by = (by + pi) % (2 * pi) - pi
     if abs(by) <= RULE.exact:
-        return sketch
+        return sketch if shape is drawn else reshaped(sketch, {label: shape})
     vertices = shape.vertices.copy()
     vertices[found.top] = new
     about: Point = (float(foot[0]), float(foot[1]))
