@@ -127,7 +127,7 @@ def outline(shape: Shape, steps: int = 64) -> FloatArray:
     """A polyline along the shape, (n, 2) page units; closed shapes end where they began."""
     match shape:
         case Circle(centre, radius):
-            angle = np.linspace(0.0, 2 * np.pi, steps + 1)
+            angle = np.append(np.arange(steps) * (2 * np.pi / steps), 0.0)
             return np.asarray(centre) + radius * np.column_stack([np.cos(angle), np.sin(angle)])
         case Polygon():
             return np.concatenate([shape.vertices, shape.vertices[:1]])
@@ -139,9 +139,13 @@ def outline(shape: Shape, steps: int = 64) -> FloatArray:
 
 def _finite(shape: object, *values: float) -> None:
     if not np.all(np.isfinite(values)):
-        raise ShapeError(f"a {type(shape).__name__.lower()} with a coordinate that is not a finite number")
+        name = type(shape).__name__.lower()
+        raise ShapeError(f"the {name} has a coordinate that is not a finite number")
 
 
 def _apart(start: Point, end: Point, name: str) -> None:
     if start == end:
-        raise ShapeError(f"a {name} of no length at ({start[0]:g}, {start[1]:g}); its ends must differ")
+        article = "an" if name == "arrow" else "a"
+        raise ShapeError(
+            f"{article} {name} of no length at ({start[0]:g}, {start[1]:g}); its ends must differ"
+        )

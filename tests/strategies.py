@@ -15,7 +15,6 @@ from sympy.core.basic import Basic
 from sketch.formula.build import Unbuildable, add, call, multiply, power, reciprocal
 from sketch.formula.names import FUNCTIONS, GREEK
 from sketch.formula.parse import expression
-from sketch.formula.print import plain
 from sketch.ink import LIMITS, Ink, Stroke
 from sketch.page import GESTURE_KINDS, Association, Component, Expression, Gesture, Sketch
 from sketch.shapes import Arrow, Circle, Link, Polygon, Shape, Solid, Spring, Wire
@@ -97,7 +96,9 @@ links: st.SearchStrategy[Link] = st.builds(lambda ends: Wire(*ends), _segments) 
 )
 arrows = st.builds(lambda ends: Arrow(*ends), _segments)
 shapes: st.SearchStrategy[Shape] = solids | links | arrows
-texts = st.text(max_size=20) | trees.map(plain)
+texts = st.text(max_size=20) | st.sampled_from(
+    ["g = 10", "f_1 = |W| cos(theta)", r"\theta=\frac{\pi}{6}", "x = (0, 5)"]
+)
 
 
 @st.composite

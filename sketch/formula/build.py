@@ -29,7 +29,7 @@ class BuildLimits:
 
 LIMITS = BuildLimits()
 
-_NOT_REAL = (sympy.zoo, sympy.nan, sympy.oo, -sympy.oo, sympy.I)
+_NOT_REAL: frozenset[Basic] = frozenset([sympy.zoo, sympy.nan, sympy.oo, -sympy.oo, sympy.I])
 
 
 def add(terms: Sequence[Basic]) -> Basic:
@@ -73,10 +73,7 @@ def power(base: Basic, exponent: Basic) -> Basic:
             raise Unbuildable(f"the power is too large a number; at most {LIMITS.bits} bits are held")
         if exponent.q > 1 and base.is_negative:
             raise Unbuildable("a negative number has no real root")
-    result = sympy.Pow(base, exponent)
-    if base.is_number and result.has(*_NOT_REAL):
-        raise Unbuildable("the power is no real number")
-    return _settled(result)
+    return _settled(sympy.Pow(base, exponent))
 
 
 def call(name: str, argument: Basic) -> Basic:
@@ -111,6 +108,8 @@ def _bits(tree: Basic) -> int:
 
 def _settled(tree: Basic) -> Basic:
     """The tree as SymPy leaves it: one pass may leave π·a·a² where the next makes it π·a³."""
+    if not _NOT_REAL.isdisjoint(tree.atoms()):
+        raise Unbuildable("the result is no real number")
     if _bits(tree) > LIMITS.bits:
         raise Unbuildable(f"a number is too large; at most {LIMITS.bits} bits are held")
     if isinstance(tree, sympy.Add | sympy.Mul):

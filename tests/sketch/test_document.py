@@ -19,7 +19,7 @@ from sketch.page import Component, Sketch
 from sketch.shapes import Circle
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(sketches())
 def test_reading_what_was_written_gives_the_same_page_to_the_bit(sketch: Sketch) -> None:
     again = document.loads(document.dumps(sketch))

@@ -89,6 +89,7 @@ def test_an_equation_is_not_evaluated() -> None:
         ("|a", 2, "to close the |"),
         ("1/0", 1, "division by zero"),
         ("0^{-x}", 0, "no real number"),
+        ("pi/(0^x)", 2, "no real number"),
         ("sqrt(-4)", 0, "no real root"),
         ("(1,2) + 3", 0, "cannot be added"),
         ("(1,2) (3,4)", 0, "cannot be multiplied"),
