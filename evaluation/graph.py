@@ -26,7 +26,7 @@ class GraphLayout:
     height: int = 170
     left: int = 44
     right: int = 12
-    top: int = 14
+    top: int = 24
     bottom: int = 34
     ticks: int = 4
     """About so many steps along an axis."""
@@ -71,7 +71,7 @@ def line_graph(
         parts.append(_line(layout.left, down(tick), layout.left + wide, down(tick)))
         parts.append(_text(layout.left - 5, down(tick) + 3.5, f"{tick:g}", "end"))
     parts.append(_text(layout.left + wide / 2, layout.height - 6, x_label, "middle"))
-    parts.append(_text(4, 10, y_label, "start"))
+    parts.append(_text(2, 12, y_label, "start"))
     for k, (name, (x, y)) in enumerate(curves.items()):
         colour = COLOURS[k % len(COLOURS)]
         for run in _runs(x, y, layout.points):

@@ -13,6 +13,7 @@ from evaluation.parallel import Progress, in_parallel, silent
 from evaluation.pictures import strip
 from evaluation.words import happened
 from sketch import svg
+from sketch.page import Sketch
 
 ABOUT: dict[str, tuple[str, str]] = {
     "incline-and-ball": (
@@ -41,11 +42,11 @@ ANSWER_TITLES: dict[str, str] = {"right": "The right answer", "low": "Too small"
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """A page in one recognizer's hands. claim: SVG of what it read over the ink, "" for the truth;
+    """A page in one recognizer's hands. page: SVG of what it read over the ink, of the ink alone for the truth;
     strip, graph: SVG of the motion and of speed against time; verdict: in two or three words."""
 
     name: str
-    claim: str
+    page: str
     strip: str
     graph: str
     verdict: str
@@ -55,12 +56,10 @@ class View:
 
 @dataclass(frozen=True, slots=True)
 class Illustration:
-    """One page: problem and answer, its ink as SVG, its formulas, and a view for the truth and for
-    each recognizer."""
+    """One page: problem and answer, its formulas, and a view for the truth and for each recognizer."""
 
     problem: str
     answer: str
-    ink: str
     formulas: tuple[str, ...]
     views: tuple[View, ...]
 
@@ -86,10 +85,9 @@ def _illustrate(task: tuple[Page, tuple[str, ...]]) -> Illustration:
     return Illustration(
         problem=drawn.name,
         answer=drawn.answer,
-        ink=svg.draw(type(drawn.truth)(drawn.truth.ink)),
         formulas=tuple(line.text for line in drawn.truth.expressions if line.text),
         views=(
-            _view(drawn, truth, "the truth", True, ""),
+            _view(drawn, truth, "what was meant", True, svg.draw(Sketch(drawn.truth.ink))),
             *(_rival(drawn, truth, reading) for reading in readings),
         ),
     )
@@ -103,13 +101,13 @@ def _rival(drawn: Page, truth: Reading, reading: Reading) -> View:
     return _view(drawn, reading, verdict, score.same_outcome, svg.draw(reading.claim))
 
 
-def _view(drawn: Page, reading: Reading, verdict: str, same: bool, claim: str) -> View:
+def _view(drawn: Page, reading: Reading, verdict: str, same: bool, picture: str) -> View:
     motion = reading.shown
     trajectory = motion.trajectory
     speeds = {label: (trajectory.times, trajectory.speed(label)) for label in reading.outcome.fates}
     return View(
         name=reading.name,
-        claim=claim,
+        page=picture,
         strip=strip(motion, drawn.seconds),
         graph=line_graph(speeds, "time, s", "speed, m/s") if speeds else "",
         verdict=verdict,

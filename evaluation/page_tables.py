@@ -10,20 +10,21 @@ from evaluation.table import Cell, Table, column, table
 
 
 def page_tables(results: Sequence[PageResult]) -> list[Table]:
-    """How pages are read; how well the corrected shapes fit; how they move; the same by diagram."""
+    """How pages are read; how well the corrected shapes fit; how they move; the same by diagram. The
+    last row is the oracle's, which does not compete."""
     if not results or not results[0].pages:
         return []
     names = [result.name for result in results]
     totals = [summarize(result.pages) for result in results]
 
     def cells(of: Callable[[PageSummary], float | None], scale: float = 100, digits: int = 1) -> list[Cell]:
-        return column([of(total) for total in totals], digits, scale)
+        return column([of(total) for total in totals], digits, scale, beside=1)
 
     def errors(of: Callable[[PageSummary], float | None], scale: float = 100, digits: int = 2) -> list[Cell]:
-        return column([of(total) for total in totals], digits, scale, low=True)
+        return column([of(total) for total in totals], digits, scale, low=True, beside=1)
 
     read = table(
-        f"{totals[0].n} pages as they are read. Shares of pages in %, strokes: share of strokes.",
+        f"{totals[0].n} pages as they are read. Shares of pages in %, strokes: share of strokes right, balanced: mean recall of their kinds.",
         names,
         {
             "exact": cells(lambda s: s.exact),
@@ -32,7 +33,7 @@ def page_tables(results: Sequence[PageResult]) -> list[Table]:
             "ends": cells(lambda s: s.ends),
             "fixed": cells(lambda s: s.fixed),
             "strokes": cells(lambda s: s.strokes),
-            "strokes, balanced": cells(lambda s: s.strokes_balanced),
+            "balanced": cells(lambda s: s.strokes_balanced),
         },
     )
     moved = table(
@@ -70,8 +71,8 @@ def _by_problem(results: Sequence[PageResult]) -> Table:
         (
             name,
             Cell(str(split[0][name].n)),
-            *column([each[name].same_outcome for each in split], 0, 100),
-            *column([each[name].motion for each in split], 2, 100, low=True),
+            *column([each[name].same_outcome for each in split], 0, 100, beside=1),
+            *column([each[name].motion for each in split], 1, 100, low=True, beside=1),
         )
         for name in split[0]
     ]

@@ -138,14 +138,13 @@ def _problems(drawn: Sequence[Illustration]) -> list[dict[str, Any]]:
 def _answer(one: Illustration, several: bool) -> dict[str, Any]:
     return {
         "title": ANSWER_TITLES.get(one.answer, one.answer) if several else "",
-        "ink": Markup(one.ink),
         "formulas": one.formulas,
         "views": [
             {
                 "name": view.name,
                 "verdict": view.verdict,
                 "same": view.same,
-                "claim": Markup(view.claim),
+                "page": Markup(view.page),
                 "strip": Markup(view.strip),
                 "graph": Markup(view.graph),
                 "words": view.words,

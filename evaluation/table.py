@@ -26,15 +26,20 @@ class Table:
     rows: tuple[tuple[str, *tuple[Cell, ...]], ...]
 
 
-def column(values: Sequence[float | None], digits: int, scale: float = 1.0, low: bool = False) -> list[Cell]:
+def column(
+    values: Sequence[float | None], digits: int, scale: float = 1.0, low: bool = False, beside: int = 0
+) -> list[Cell]:
     """Cells of one column; the greatest value is the best one, or the smallest when `low`. What looks
-    the same as the best is as good."""
+    the same as the best is as good. The last `beside` values do not compete."""
     texts = [UNKNOWN if value is None else f"{scale * value:.{digits}f}" for value in values]
-    known = [float(text) for text in texts if text != UNKNOWN]
+    rivals = len(texts) - beside
+    known = [float(text) for text in texts[:rivals] if text != UNKNOWN]
     if len(known) < 2 or min(known) == max(known):
         return [Cell(text) for text in texts]
     best = min(known) if low else max(known)
-    return [Cell(text, text != UNKNOWN and float(text) == best) for text in texts]
+    return [
+        Cell(text, k < rivals and text != UNKNOWN and float(text) == best) for k, text in enumerate(texts)
+    ]
 
 
 def table(caption: str, names: Sequence[str], columns: Mapping[str, Sequence[Cell]]) -> Table:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from sklearn.metrics import balanced_accuracy_score, confusion_matrix, f1_score, precision_score, recall_score
 
@@ -34,6 +34,7 @@ def test_hand_computed_example():
     assert list(found.per_class) == ["circle", "wire", "math"]
 
 
+@settings(max_examples=25, deadline=None)
 @given(pairs)
 def test_equals_scikit_learn(items):
     found = scores_of(items)
