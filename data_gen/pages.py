@@ -105,14 +105,14 @@ def meaning(meant: Problem, places: Sequence[Point | None] = ()) -> Sketch:
 
 def _steadied(writer: Writer, component: Component) -> Writer:
     """The writer at a shape of this size. The pen strays in proportion to a stroke; on large and on thin
-    shapes the eye corrects it. Hooks become rarer as they would become too long."""
+    shapes the eye corrects it."""
     low, high = bounding_box(outline(component.shape))
     width, height = (high - low).tolist()
     size = float(np.hypot(width, height))
     waver = min(1.0, (RULE.steady / size) ** 0.5)
     if isinstance(component.shape, Circle | Polygon):
         waver = min(waver, (2 * width * height) ** 0.5 / size)  # 1 for a square
-    return replace(writer, wobble=waver * writer.wobble, hooks=min(1.0, RULE.steady / size) * writer.hooks)
+    return replace(writer, wobble=waver * writer.wobble)
 
 
 @dataclass(frozen=True, slots=True)

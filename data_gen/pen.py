@@ -52,6 +52,8 @@ class PenRule:
     """More samples than this are thinned evenly; real strokes of these kinds stay below."""
     hook: tuple[float, float] = (0.02, 0.06)
     """Length of a hook, fraction of the stroke's size."""
+    hook_most: float = 10.0
+    """Hooks are never longer than this, page units: the hand's flick does not grow with the drawing."""
     shake: float = 9.0
     """Frequency of tremor, Hz: physiological tremor is 8 to 12 Hz."""
 
@@ -110,7 +112,7 @@ def _hooked(path: FloatArray, share: float, rng: np.random.Generator) -> FloatAr
     if at_start >= share and at_end >= share:
         return path
     size = float(np.linalg.norm(path.max(axis=0) - path.min(axis=0)))
-    reach = size * (RULE.hook[0] + length * (RULE.hook[1] - RULE.hook[0]))
+    reach = min(RULE.hook_most, size * (RULE.hook[0] + length * (RULE.hook[1] - RULE.hook[0])))
     pieces = [path]
     if at_start < share:
         angle = 2 * np.pi * angle_start
