@@ -32,8 +32,14 @@ class StepRule:
     drift: float = 1e-6
     """m/s: a contact that closes more slowly than this never bounces."""
     noise: float = 1e-11
-    """m/s: a rate below this is none: what the solver leaves over after a hundred rows."""
-    deep: float = 1e-4
+    """m/s: a wire's rate below this is none: what the solver leaves over."""
+    seep: float = 1e-7
+    """m/s: the same of a contact, which has no long swings to keep exact: half a nanometre a step."""
+    exact: float = 1e-13
+    """m: a wire's length is kept to this."""
+    closing: int = 8
+    """Sweeps over the rows to close drifts: each squares what a wire is off, and halves a pile's."""
+    deep: float = 3e-4
     """m: overlap beyond this was drawn, not drifted into, and is let out gently."""
     ease: float = 0.2
     """Share of a deep overlap let out in one step: gone in some 20 steps, a tenth of a second."""
@@ -94,8 +100,15 @@ def step(world: World, state: State, h: float, usual: float, patient: bool = Tru
     rows = _rows(world, state, turns, h)
     hits, heat = _strike(world, state, rows, usual, patient)
     pos, vel, inverse = state.pos, state.vel, world.inverse
-    gaps = [row.gap for row in rows]
     closed = [row for row in rows if row.gap <= RULE.slop]
+    # What is about to close too slowly to bounce is let close, and needs no moment of its own.
+    near = [
+        (row, row.gap)
+        for row in rows
+        if RULE.slop < row.gap <= h * _slow(world, row, usual) and row.rate(vel) >= -_slow(world, row, usual)
+    ]
+    landing = {row.name for row, _ in near}
+    open_rows = [(row, row.gap) for row in rows if row.gap > RULE.slop and row.name not in landing]
     while True:
         middle = [p + 0.5 * h * v for p, v in zip(pos, vel, strict=True)]
         half = turns_of(middle)
@@ -106,11 +119,13 @@ def step(world: World, state: State, h: float, usual: float, patient: bool = Tru
         for row in rubbing:
             row.refresh(middle, half, inverse)
             row.pn *= h
-        before = [row.rate(vel) for row in rows]
-        ready = closed + rubbing
-        for row, rate in zip(rows, before, strict=True):
-            row.bias = rate
-            row.low = 0.0
+            row.pt = 0.0
+        before = [row.rate(vel) for row, _ in open_rows]
+        ready = [*closed, *(row for row, _ in near), *rubbing]
+        for row in closed:
+            row.bias, row.low = row.rate(vel), 0.0
+        for row, gap in near:
+            row.bias, row.low, row.pn, row.pt = gap / h, 0.0, 0.0, 0.0
         warm = h / state.last if state.last else 0.0
         new = free[:]
         for row in closed:
@@ -121,7 +136,7 @@ def step(world: World, state: State, h: float, usual: float, patient: bool = Tru
         if ready:
             solve(ready, new, inverse, SOLVE)
         state.last = h
-        cut = _first_meeting(rows, gaps, before, new, h) if patient else h
+        cut = _first_meeting(open_rows, before, new, h) if patient else h
         if cut >= h * (1 - RULE.least) or h <= RULE.least * usual:
             break
         h = max(cut, RULE.least * usual)
@@ -136,7 +151,7 @@ def step(world: World, state: State, h: float, usual: float, patient: bool = Tru
     state.pos, state.vel = after, new
     state.time += h
     state.rows = {row.name: row for row in rows}
-    return Done(h, acts, closed + rubbing, hits, acceleration, heat, work)
+    return Done(h, acts, ready, hits, acceleration, heat, work)
 
 
 def _rows(world: World, state: State, turns: Turns, h: float) -> list[Row]:
@@ -169,7 +184,6 @@ def _strike(
     order in the step, are taken away on both sides.
     """
     vel, inverse = state.vel, world.inverse
-    gx, gy = world.gravity
     closed: list[Row] = []
     hits: list[Hit] = []
     needed = False
@@ -177,12 +191,12 @@ def _strike(
         if row.gap > RULE.slop:
             continue
         rate = row.rate(vel)
-        slow = RULE.rest_steps * usual * abs(gx * row.nx + gy * row.ny) + RULE.drift
+        slow = _slow(world, row, usual)
         row.bias, row.low = 0.0, 0.0
         if row.held and abs(rate) <= slow:
             row.low = -1e300
-            needed = needed or abs(rate) > RULE.noise
-        elif rate < -RULE.noise:
+            needed = needed or abs(rate) > (RULE.noise if row.kind == WIRE else RULE.seep)
+        elif rate < -(RULE.noise if row.kind == WIRE else RULE.seep):
             needed = True
             if rate < -slow:
                 if row.kind != WIRE:
@@ -201,17 +215,19 @@ def _strike(
     return hits, before - _kinetic(world, vel)
 
 
-def _first_meeting(
-    rows: list[Row], gaps: list[float], before: list[float], new: list[float], h: float
-) -> float:
+def _slow(world: World, row: Row, usual: float) -> float:
+    """The speed, m/s, below which a row that closes does not bounce."""
+    gx, gy = world.gravity
+    return RULE.rest_steps * usual * abs(gx * row.nx + gy * row.ny) + RULE.drift
+
+
+def _first_meeting(rows: list[tuple[Row, float]], before: list[float], new: list[float], h: float) -> float:
     """When the first open gap closes, s after the step's beginning; h if none does.
 
     A gap's rate is taken to change evenly within the step, as it does under constant forces.
     """
     first = h
-    for row, gap, rate in zip(rows, gaps, before, strict=True):
-        if gap <= RULE.slop:
-            continue
+    for (row, gap), rate in zip(rows, before, strict=True):
         last = row.rate(new)
         if gap + 0.5 * h * (rate + last) >= 0.0:
             continue
@@ -239,9 +255,11 @@ def _free(world: World, acts: list[Act], middle: list[float], vel: list[float], 
 
 
 def _rubbed(rows: list[Row], vel: list[float], new: list[float]) -> float:
-    """Heat of friction in the step, J."""
+    """Heat of friction, and of soft landings, in the step, J."""
     heat = 0.0
     for row in rows:
+        if row.pn and not row.given:
+            heat -= 0.5 * row.pn * (row.rate(vel) + row.rate(new))
         if row.pt:
             heat -= 0.5 * row.pt * (row.slip(vel) + row.slip(new))
     return heat
@@ -265,7 +283,7 @@ def _close_up(rows: list[Row], pos: list[float], inverse: list[float]) -> None:
     Rows under force are closed from both sides (their drift is of third order in the step), others
     only opened.
     """
-    for _ in range(8):
+    for _ in range(RULE.closing):
         turns = turns_of(pos)
         worst = 0.0
         for row in rows:
@@ -276,11 +294,11 @@ def _close_up(rows: list[Row], pos: list[float], inverse: list[float]) -> None:
                 gap = RULE.ease * gap if not worst else 0.0
             elif gap > 0.0 and not row.held:
                 continue
-            if abs(gap) <= 1e-13:
+            if abs(gap) <= (RULE.exact if row.kind == WIRE else 0.1 * RULE.slop):
                 continue
             worst = max(worst, abs(gap) if row.gap >= -RULE.deep else 0.0)
             row.push(pos, inverse, -gap * row.kn, 0.0)
-        if worst <= 1e-12:
+        if not worst:
             return
 
 

@@ -22,8 +22,8 @@ from sketch.shapes import Polygon, Shape
 class StraightRule:
     """When an edge is meant to be level or upright."""
 
-    lean: float = radians(8)
-    """Radians from the axis: people lean their edges by 2 or 3 degrees, and draw inclines steeper."""
+    lean: float = radians(12)
+    """Radians from the axis: short edges of hand-drawn boxes lean by up to 9 degrees; inclines are steeper."""
     least_area: float = 0.5
     """Share of its area that a polygon must keep: a flat triangle is not to be pressed flat."""
 
