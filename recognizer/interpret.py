@@ -61,7 +61,9 @@ def interpret(ink: Ink, recognizer: Recognizer, notes: Sequence[Note] = ()) -> S
     claims = recognizer.recognize(ink)
     meant: list[StrokeKind | None] = [None if claim.rejected else claim.kind for claim in claims]
     idle = without_object(ink, meant)
-    named = [_next_best(claims[index]) if index in idle else kind for index, kind in enumerate(meant)]
+    named: list[StrokeKind | None] = [
+        _next_best(claims[index]) if index in idle else kind for index, kind in enumerate(meant)
+    ]
     gone = erased(ink, named)
     kinds: list[StrokeKind | None] = [None if index in gone else kind for index, kind in enumerate(named)]
     solids, held = links(ink, kinds, shapes(ink, kinds))

@@ -149,8 +149,9 @@ def evidence(path: FloatArray, rules: Rules = RULES) -> FloatArray:
         "scribble": scribble_evidence(found, rules),
         "math": rules.otherwise,
     }
-    if beliefs["wire"] < rules.otherwise:
-        beliefs["arrow"] = max(arrow_evidence(points, rules), arrow_evidence(points[::-1], rules))
+    beliefs["arrow"] = max(arrow_evidence(points, rules), arrow_evidence(points[::-1], rules))
+    # A small head hardly bends a line: whatever is believed of an arrow is not believed of a wire.
+    beliefs["wire"] += log1p(-exp(beliefs["arrow"]))
     if outline is not None:
         beliefs |= outline_evidence(outline, rules)
     return np.array([max(beliefs.get(kind, rules.never), rules.never) for kind in STROKE_KINDS])
