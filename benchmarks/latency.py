@@ -3,7 +3,8 @@
     python benchmarks/latency.py --strokes 600 --json latency.json
 
 Generated strokes of all kinds, one a page; the recognizers take turns over each stroke, so that
-whatever else the machine does hits all of them alike.
+whatever else the machine does hits all of them alike. Beside the time on the clock stands the CPU's:
+where the two differ much, the machine was busy with something else.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from __future__ import annotations
 import argparse
 import json
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, thread_time
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -35,31 +36,30 @@ def main() -> None:
     pages = [Ink((item.stroke,)) for item in generate(options.strokes + WARM_UP, options.seed)]
     figures = measure(options.recognizer, pages)
     slowest = max(figure["p50"] for figure in figures.values())
-    print(f"{'':12}{'p50 ms':>9}{'p95 ms':>9}{'faster':>9}")
+    print(f"{'':12}{'p50 ms':>9}{'p95 ms':>9}{'CPU p50':>9}{'CPU p95':>9}{'faster':>9}")
     for name, figure in figures.items():
-        print(f"{name:12}{figure['p50']:9.3f}{figure['p95']:9.3f}{slowest / figure['p50']:8.1f}x")
+        columns = "".join(f"{figure[key]:9.3f}" for key in ("p50", "p95", "cpu_p50", "cpu_p95"))
+        print(f"{name:12}{columns}{slowest / figure['p50']:8.1f}x")
     if options.json:
         document = {"strokes": options.strokes, "seed": options.seed, "latency_ms": figures}
         options.json.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
 
 
 def measure(names: list[str], pages: list[Ink]) -> dict[str, dict[str, float]]:
-    """p50 and p95 in ms of each recognizer over the pages after the warm-up."""
+    """p50 and p95 of each recognizer over the pages after the warm-up, ms on the clock and of the CPU."""
     rivals = {name: recognizer(name) for name in names}
-    spent: dict[str, list[float]] = {name: [] for name in names}
+    spent: dict[str, list[tuple[float, float]]] = {name: [] for name in names}
     with threadpool_limits(limits=1):
         for page in pages:
             for name, rival in rivals.items():
-                begun = perf_counter()
+                clock, cpu = perf_counter(), thread_time()
                 rival.recognize(page)
-                spent[name].append(1000 * (perf_counter() - begun))
-    return {
-        name: {
-            "p50": float(np.percentile(times[WARM_UP:], 50)),
-            "p95": float(np.percentile(times[WARM_UP:], 95)),
-        }
-        for name, times in spent.items()
-    }
+                spent[name].append((1000 * (perf_counter() - clock), 1000 * (thread_time() - cpu)))
+    figures: dict[str, dict[str, float]] = {}
+    for name, times in spent.items():
+        (p50, cpu_p50), (p95, cpu_p95) = np.percentile(times[WARM_UP:], [50, 95], axis=0).tolist()
+        figures[name] = {"p50": p50, "p95": p95, "cpu_p50": cpu_p50, "cpu_p95": cpu_p95}
+    return figures
 
 
 if __name__ == "__main__":

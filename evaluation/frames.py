@@ -19,6 +19,8 @@ from sketch.ink import FloatArray
 from sketch.page import Component
 from sketch.shapes import Arrow, Circle, Point, Polygon, Solid, Spring, Wire, outline
 
+REACH = 0.6
+"""How far around the page a picture follows what leaves it, as a share of the page's size."""
 Spoke = tuple[Point, Point]
 
 
@@ -61,7 +63,7 @@ def frame(motion: Motion, seconds: float) -> Frame:
     trails = tuple(
         to_page(trajectory.path(part.label)[: k + 1])
         for part in motion.rectified.components
-        if part.label in trajectory.bodies and not part.fixed
+        if _moves(part, motion)
     )
     return Frame(float(trajectory.times[k]), tuple(components), tuple(spokes), trails, tuple(broken))
 
@@ -76,8 +78,24 @@ def to_page(metres: FloatArray) -> FloatArray:
     return metres * [PER_METRE, -PER_METRE]
 
 
+def watchable(motion: Motion, seconds: float, reach: float = REACH) -> float:
+    """The time until which something is to be seen: `seconds`, or when the last of the moving bodies
+    has got farther than `reach` of the page's size away from the page."""
+    low, high = _box([frame(motion, 0.0)])
+    away = reach * float(np.linalg.norm(high - low))
+    trajectory = motion.trajectory
+    movable = [part.label for part in motion.rectified.components if _moves(part, motion)]
+    near = np.zeros(len(trajectory.times), dtype=bool)
+    for label in movable:
+        path = to_page(trajectory.path(label))
+        near |= np.all((path >= low - away) & (path <= high + away), axis=1)
+    if not movable or near[-1]:
+        return seconds
+    return min(seconds, max(float(trajectory.times[near].max(initial=0.0)), 0.2 * seconds))
+
+
 def view(
-    shown: Sequence[Frame], margin: float = 0.06, reach: float = 0.6
+    shown: Sequence[Frame], margin: float = 0.06, reach: float = REACH
 ) -> tuple[float, float, float, float]:
     """(left, top, width, height) that shows the first frame whole and the others as far as they stay
     within `reach` of its size around it: what falls off the page must not shrink everything else."""
@@ -88,6 +106,10 @@ def view(
     return (float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1]))
 
 
+def _moves(component: Component, motion: Motion) -> bool:
+    return component.label in motion.trajectory.bodies and not component.fixed
+
+
 def _box(shown: Sequence[Frame]) -> tuple[FloatArray, FloatArray]:
     points = [outline(part.shape) for one in shown for part in one.components]
     return bounding_box(np.concatenate(points)) if points else (np.zeros(2), np.full(2, 100.0))
@@ -95,7 +117,7 @@ def _box(shown: Sequence[Frame]) -> tuple[FloatArray, FloatArray]:
 
 def _solid(component: Component, solid: Solid, motion: Motion, k: int) -> tuple[Component, list[Spoke]]:
     """The solid at frame k, and its spoke if it is a circle that may move."""
-    if component.label not in motion.trajectory.bodies or component.fixed:
+    if not _moves(component, motion):
         return component, []
     x, y, angle = motion.trajectory.poses[k, motion.trajectory.column(component.label)].tolist()
     centre = solid.centre if isinstance(solid, Circle) else centroid(solid.vertices)

@@ -17,6 +17,9 @@ from sketch.ink import FloatArray
 COLOURS = ("#3b7dd8", "#d8703b", "#3b9c6b", "#a05bc0", "#b8952a", "#c0506b")
 """One a curve, in turn; mid-tones that read on white and on near-black."""
 
+SMALLEST = 0.05
+"""Step of an axis at least, in its unit: what stands still must not look alive for its rounding errors."""
+
 
 @dataclass(frozen=True, slots=True)
 class GraphLayout:
@@ -92,7 +95,7 @@ def _finite(arrays: Sequence[FloatArray]) -> FloatArray:
 def _ticks(values: FloatArray, count: int) -> list[float]:
     """Round numbers from at or below the smallest value to at or above the greatest."""
     low, high = float(values.min()), float(values.max())
-    rough = max((high - low) / count, 1e-3)
+    rough = max((high - low) / count, SMALLEST)
     power = 10.0 ** np.floor(np.log10(rough))
     step = float(min(s * power for s in (1, 2, 2.5, 5, 10) if s * power >= rough * (1 - 1e-9)))
     first, last = np.floor(low / step + 1e-9), np.ceil(high / step - 1e-9)

@@ -50,7 +50,7 @@ def page_tables(results: Sequence[PageResult]) -> list[Table]:
             "unread": errors(lambda s: s.unread, 100, 1),
         },
     )
-    return [read, moved, _by_problem(results)]
+    return [read, moved, *_by_problem(results)]
 
 
 def page_notes() -> list[str]:
@@ -64,24 +64,26 @@ def page_notes() -> list[str]:
     ]
 
 
-def _by_problem(results: Sequence[PageResult]) -> Table:
-    """One row a diagram: each recognizer's share of pages with the right outcome, and its motion error."""
+def _by_problem(results: Sequence[PageResult]) -> list[Table]:
+    """A row a diagram: each recognizer's share of pages with the right outcome; its motion error."""
     split = [by_problem(result.pages) for result in results]
-    rows = [
-        (
-            name,
-            Cell(str(split[0][name].n)),
-            *column([each[name].same_outcome for each in split], 0, 100, beside=1),
-            *column([each[name].motion for each in split], 1, 100, low=True, beside=1),
+    head = ("", "n", *(result.name for result in results))
+
+    def rows(
+        of: Callable[[PageSummary], float | None], digits: int, low: bool
+    ) -> tuple[tuple[str, *tuple[Cell, ...]], ...]:
+        return tuple(
+            (
+                name,
+                Cell(str(split[0][name].n)),
+                *column([of(each[name]) for each in split], digits, 100, low, beside=1),
+            )
+            for name in split[0]
         )
-        for name in split[0]
+
+    return [
+        Table(
+            "Pages with the right outcome in %, by diagram.", head, rows(lambda s: s.same_outcome, 0, False)
+        ),
+        Table("Mean motion error in %, by diagram.", head, rows(lambda s: s.motion, 2, True)),
     ]
-    head = (
-        "",
-        "n",
-        *(f"{result.name}, %" for result in results),
-        *(f"{result.name}, error" for result in results),
-    )
-    return Table(
-        "By diagram: pages with the right outcome in %, and mean motion error in %.", head, tuple(rows)
-    )

@@ -11,7 +11,7 @@ from io import BytesIO
 import numpy as np
 from PIL import Image, ImageColor, ImageDraw
 
-from evaluation.frames import Frame, frames, view
+from evaluation.frames import Frame, frames, view, watchable
 from evaluation.parallel import Progress, silent
 from physics.pipeline import Motion
 from sketch.figures import COLOURS, Pen, coil, draw_path, draw_shapes
@@ -54,8 +54,8 @@ LAYOUT = PictureLayout()
 
 def strip(motion: Motion, seconds: float, layout: PictureLayout = LAYOUT) -> str:
     """SVG of moments from the start to `seconds`, side by side, each with its time and with the way
-    that every moving body has come."""
-    shown = frames(motion, seconds, layout.moments)
+    that every moving body has come; to an earlier end when everything that moves has left by then."""
+    shown = frames(motion, watchable(motion, seconds), layout.moments)
     left, top, wide, high = view(shown)
     pen = Pen(wide / layout.points)
     gap, caption = layout.gap * pen.unit, layout.caption * pen.unit

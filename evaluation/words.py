@@ -31,7 +31,9 @@ def happened(motion: Motion, outcome: Outcome) -> list[str]:
             f"{float(speed[-1]):.2f} m/s at the end.{_steadily(trajectory.times, speed)}"
         )
     told += _impacts(motion)
-    told += [event.message for event in trajectory.events if event.kind == "break"]
+    told += [
+        f"At {event.time:.2f} s {event.message}." for event in trajectory.events if event.kind == "break"
+    ]
     return [*told, *motion.notices]
 
 
