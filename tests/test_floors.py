@@ -18,7 +18,7 @@ from evaluation.stroke_contest import stroke_contest
 from evaluation.suites import generated_pages, generated_strokes
 from recognizer.roster import ROSTER
 
-STROKES, PAGES, SEED = 900, 30, 4711
+STROKES, PAGES, SEED = 720, 24, 4711
 """Sizes and seed of the suites; the seed is used for nothing else."""
 
 
@@ -36,7 +36,16 @@ class Floor:
     motion: float
 
 
-FLOORS: dict[str, Floor] = {}
+FLOORS: dict[str, Floor] = {
+    # measured: five 0.668, claimable 0.668, ece 0.415; exact 0.000, same 0.000, motion 0.969
+    "paper": Floor(0.65, 0.65, 0.43, exact=0.0, same_outcome=0.0, motion=0.98),
+    # measured: five 0.948, claimable 0.793, ece 0.149; exact 0.917, same 0.917, motion 0.088
+    "geometric": Floor(0.94, 0.78, 0.16, exact=0.87, same_outcome=0.87, motion=0.13),
+    # measured: five 0.975, claimable 0.896, ece 0.046; exact 0.875, same 0.833, motion 0.171
+    "learned": Floor(0.965, 0.885, 0.055, exact=0.83, same_outcome=0.79, motion=0.21),
+    # measured: exact 1.000, same 0.958, motion 0.046
+    "oracle": Floor(None, None, None, exact=0.95, same_outcome=0.91, motion=0.09),
+}
 
 
 @pytest.fixture(scope="module")
