@@ -8,7 +8,7 @@ returns None where the ink has no such shape in it (a circle of points in a line
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import radians
 from typing import assert_never
@@ -16,11 +16,11 @@ from typing import assert_never
 import numpy as np
 
 from recognizer.geometric.arrows import head
-from recognizer.geometric.ring import Ring, closing_points, ring
-from recognizer.geometric.rules import best_polygon
+from recognizer.geometric.ring import RING, Ring, closing_points, ring
+from recognizer.geometric.rules import RULES, best_polygon
 from recognizer.geometric.teeth import teeth
 from recognizer.preprocess import spaced, unit_path
-from sketch.geometry import bounding_box, diagonal, resample
+from sketch.geometry import bounding_box, diagonal, path_length, resample
 from sketch.ink import FloatArray, Stroke
 from sketch.shapes import Arrow, Circle, ComponentKind, Point, Polygon, Shape, ShapeError, Spring, Wire
 
@@ -29,8 +29,18 @@ from sketch.shapes import Arrow, Circle, ComponentKind, Point, Polygon, Shape, S
 class FitRule:
     """How ink is idealised."""
 
-    points: int = 96
-    """Points of an outline: two dozen on each side of a quadrilateral."""
+    points: int = 240
+    """Points of a path: sampling cuts corners, and this finely it cuts off a hundredth of a side."""
+    outline: int = 120
+    """Points of a polygon's outline, on which its sides are sought."""
+    rounding: float = 0.08
+    """Share of the perimeter below which a side may be a rounded corner: it is one where the outline turns
+    by less than `rounded` in all at its two ends (the short side of a plank turns by 180°)."""
+    rounded: float = radians(140)
+    cut: float = 0.02
+    """Share of the perimeter below which a side was cut off a sharp corner by sampling,"""
+    sharp: float = radians(165)
+    """unless the outline turns by more: the tip of a sliver of 15°."""
     corner: float = 0.12
     """Share of a side's points left out at either end: corners are rounded there."""
     straight_on: float = radians(18)
@@ -110,7 +120,7 @@ def fit_polygon(points: FloatArray) -> Polygon | None:
     size = diagonal(points)
     if size == 0:
         return None
-    outline = ring(resample((points - low) / size, FIT.points))
+    outline = ring(resample((points - low) / size, FIT.points), replace(RING, points=FIT.outline))
     if outline is None:
         return None
     corners = _straightened(_side_corners(outline))
@@ -157,7 +167,7 @@ def fit_arrow(strokes: list[Stroke]) -> Arrow | None:
             points = points[::-1]
         return Arrow(_point(points[0]), _point(points[-1]))
     found: list[tuple[float, Arrow]] = []
-    for path in (resample(points, FIT.points), resample(points, FIT.points)[::-1]):
+    for path in ((tail_first := resample(points, RULES.points)), tail_first[::-1]):
         seen = head(path)
         if seen is not None:
             found.append((seen.narrower, Arrow(_point(path[0]), _point(path[seen.tip]))))
@@ -167,14 +177,38 @@ def fit_arrow(strokes: list[Stroke]) -> Arrow | None:
 
 
 def _side_corners(outline: Ring) -> FloatArray:
-    """Corners of the best polygon: lines fitted to its sides, intersected with their neighbours."""
+    """Corners of the best polygon: lines fitted to its sides, intersected with their neighbours. Sides
+    that are only rounded corners are left out, and their neighbours meet beyond them."""
+    points = outline.points
     breaks, _ = best_polygon(outline)
-    lines = [_line(outline.points[a : b + 1]) for a, b in pairwise(breaks)]
-    corners = [
-        _meeting(before, after, outline.points[at])
-        for before, after, at in zip([lines[-1], *lines], lines, breaks, strict=False)
-    ]
-    return np.array(corners)
+    sides = _without_rounding(points, list(pairwise(breaks)))
+    lines = [_line(points[a : b + 1]) for a, b in sides]
+    seen = [0.5 * (points[b] + points[a]) for (_, b), (a, _) in zip([sides[-1], *sides], sides, strict=False)]
+    return np.array(
+        [
+            _meeting(before, after, at)
+            for before, after, at in zip([lines[-1], *lines], lines, seen, strict=False)
+        ]
+    )
+
+
+def _without_rounding(points: FloatArray, sides: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """The sides (first and last point) without the rounded corners between them; three remain."""
+    perimeter = path_length(points)
+    while len(sides) > 3:
+        along = np.array([points[b] - points[a] for a, b in sides])
+        lengths = np.hypot(along[:, 0], along[:, 1])
+        before, after = np.roll(along, 1, axis=0), np.roll(along, -1, axis=0)
+        cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+        dot = np.einsum("ij,ij->i", before, after)
+        turned = np.abs(np.arctan2(cross, dot))
+        corner = ((lengths < FIT.cut * perimeter) & (turned < FIT.sharp)) | (
+            (lengths < FIT.rounding * perimeter) & (turned < FIT.rounded)
+        )
+        if not corner.any():
+            break
+        del sides[int(np.argmin(np.where(corner, lengths, np.inf)))]
+    return sides
 
 
 def _line(points: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -164,8 +164,8 @@ def _outline_of(strokes: list[Stroke], kinds: list[StrokeKind | None]) -> Solid 
 def among_letters(
     ink: Ink, parts: Sequence[tuple[int, ...]], letters: Sequence[int], rule: PartRule = PARTS
 ) -> list[bool]:
-    """For each set of strokes whether it is no larger than the letters and stands in a line with one of
-    them: then it is a letter itself, by its context."""
+    """For each set of strokes, none of them among the letters, whether it is no larger than the letters and
+    stands in a line with one of them: then it is a letter itself, by its context."""
     if not letters:
         return [False] * len(parts)
     boxes = boxes_of(ink, letters)
@@ -181,7 +181,9 @@ def among_letters(
             continue
         reach = rule.beside * height
         meeting = tree.query(shapely.box(left - reach, top, right + reach, bottom))
-        near = boxes[[position for position in meeting.tolist() if letters[position] not in strokes]]
+        near = boxes[meeting]
+        middle = 0.5 * (near[:, 0] + near[:, 2])
+        near = near[(middle < left) | (middle > right)]  # what stands within a shape is not beside it
         level = np.minimum(near[:, 3], bottom) - np.maximum(near[:, 1], top)
         found.append(bool((level >= rule.level * np.minimum(near[:, 3] - near[:, 1], tall)).any()))
     return found
