@@ -5,15 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from physics.engine.forces import elongation, place
-from physics.engine.rows import WIRE, turns_of
+from physics.engine.rows import WIRE, Row, turns_of
 from physics.engine.step import Done
 from physics.engine.world import World
 from physics.scene import Scene
 from physics.trajectory import Energy, Event, ForceSeries, Trajectory
 from sketch.ink import FloatArray
-
-Start = tuple[list[float], list[float]]
-"""Poses and velocities when a frame begins."""
 
 
 class Record:
@@ -33,43 +30,53 @@ class Record:
         }
         self.carried: dict[tuple[str, int], float] = {}
         self.heat = self.work = 0.0
-        self.booked = (0.0, 0.0)
 
     def account(self, done: Done) -> None:
         """Adds what a step made into heat and what the student's forces did."""
         self.heat += done.heat
         self.work += done.work
 
-    def keep(self, frame: int, start: Start, first: Done | None) -> None:
-        """Frame number `frame`, from where it starts and the first step from there."""
-        pos, vel = start
+    def keep(self, frame: int, pos: list[float], vel: list[float]) -> None:
+        """Frame number `frame`: poses and velocities (three per body), and where links end."""
         self.poses[frame] = np.reshape(pos, (-1, 3))
         self.velocities[frame] = np.reshape(vel, (-1, 3))
         self._keep_anchors(frame, pos)
-        if first is None:
-            self.velocities[frame] = 0.0
-            vel = [0.0] * len(vel)
-        else:
-            self.accelerations[frame] = np.reshape(first.acceleration, (-1, 3))
-            self._keep_forces(frame, first)
-        self.ledger[frame] = (*self._energy(pos, vel), self.booked[0], self.booked[1])
-        # The run has gone on to the frame's end by now: that is where the next one begins.
-        self.booked = (self.heat, self.work)
+        self.ledger[frame] = (*self._energy(pos, vel), self.heat, self.work)
 
-    def freeze(self, frame: int, start: Start) -> None:
-        """From this frame on all stands still: the run was stopped."""
-        for later in range(frame, len(self.times)):
-            self.keep(later, start, None)
+    def keep_forces(self, frame: int, done: Done) -> None:
+        """The forces of the step that begins with the frame, and what they do."""
+        self.accelerations[frame] = np.reshape(done.acceleration, (-1, 3))
+        for act in done.acts:
+            self._add(frame, act.name, act.i, (act.x, act.y), (act.px, act.py), 1.0)
+        # Several rows of one pair are one force, at the centre of pressure.
+        for row in done.rows:
+            if not row.pn and not row.pt:
+                continue
+            normal = 0.0 if row.given else row.pn / done.length
+            along = row.pt / done.length
+            x, y = row.nx * normal - row.ny * along, row.ny * normal + row.nx * along
+            for body, other, sign in ((row.i, row.j, -1.0), (row.j, row.i, 1.0)):
+                at = (row.px, row.py)
+                if row.kind == WIRE and body == row.i:
+                    at = self._start_of(row.name[1], frame)
+                self._add(frame, self._row_name(row, other), body, (sign * x, sign * y), at, row.pn)
+
+    def freeze(self, frame: int) -> None:
+        """From this frame on, the last one kept, all stands still: the run was stopped."""
+        self.velocities[frame] = 0.0
+        self.ledger[frame, 0] = 0.0
+        self._repeat(frame)
 
     def hold(self, frame: int) -> None:
         """From this frame on, the last one kept, all stays as it is: the scene has settled."""
-        for array in (self.poses, self.velocities, self.accelerations, self.ledger):
-            array[frame + 1 :] = array[frame]
         for values, points in self.forces.values():
             values[frame + 1 :] = values[frame]
             points[frame + 1 :] = points[frame]
-        for ends in self.anchors.values():
-            ends[frame + 1 :] = ends[frame]
+        self._repeat(frame)
+
+    def _repeat(self, frame: int) -> None:
+        for array in (self.poses, self.velocities, self.accelerations, self.ledger, *self.anchors.values()):
+            array[frame + 1 :] = array[frame]
 
     def trajectory(self, events: tuple[Event, ...]) -> Trajectory:
         """All that was kept."""
@@ -97,28 +104,10 @@ class Record:
         points[absent] = self.poses[absent, body, :2]
         return points
 
-    def _keep_forces(self, frame: int, done: Done) -> None:
-        for act in done.acts:
-            self._add(frame, act.name, act.i, (act.x, act.y), (act.px, act.py), 1.0)
-        # Several rows of one pair are one force, at the centre of pressure.
-        for row in done.rows:
-            if not row.pn and not row.pt:
-                continue
-            x = (row.nx * row.pn * (not row.given) - row.ny * row.pt) / done.length
-            y = (row.ny * row.pn * (not row.given) + row.nx * row.pt) / done.length
-            for body, other, sign in ((row.i, row.j, -1.0), (row.j, row.i, 1.0)):
-                if body >= len(self.world.labels):
-                    continue
-                name = self._row_name(row.kind, row.name, other)
-                at = (row.px, row.py)
-                if row.kind == WIRE and body == row.i:
-                    at = self._start_of(row.name[1], frame)
-                self._add(frame, name, body, (sign * x, sign * y), at, row.pn)
-
-    def _row_name(self, kind: int, name: tuple[int, int], other: int) -> str:
-        if kind == WIRE:
-            return f"T of {self.world.cords[name[1]].label}"
-        return f"{'friction of' if name[0] == -2 else 'contact with'} {self.world.labels[other]}"
+    def _row_name(self, row: Row, other: int) -> str:
+        if row.kind == WIRE:
+            return f"T of {self.world.cords[row.name[1]].label}"
+        return f"{'friction of' if row.given else 'contact with'} {self.world.labels[other]}"
 
     def _start_of(self, cord: int, frame: int) -> tuple[float, float]:
         x, y = self.anchors[self.world.cords[cord].label][frame, 0]

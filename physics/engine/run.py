@@ -72,14 +72,15 @@ def simulate(scene: Scene, seconds: float, rate: float = 60.0) -> Trajectory:
     motion = [0.0] * len(world.labels)
     for frame in range(frames):
         start = [*state.pos], [*state.vel]
+        record.keep(frame, *start)
         until = (frame + 1) / rate
-        first = _frame(world, state, until, pace, events, record)
+        first = _frame(world, state, frame, until, pace, events, record)
         if first is None:
-            record.freeze(frame, start)
+            record.freeze(frame)
             break
-        record.keep(frame, start, first)
-        _note_rest(world, state, first, motion, frame / rate, events)
-        if _settled(world, start[1], state.vel, first):
+        settled = _settled(world, start, state, first)
+        _note_rest(world, state, first, motion, frame / rate, events, settled)
+        if settled:
             record.hold(frame)
             break
     last = (frames - 1) / rate
@@ -108,7 +109,7 @@ def _pace(world: World, frame: float) -> float:
 
 
 def _frame(
-    world: World, state: State, until: float, pace: float, events: list[Event], record: Record
+    world: World, state: State, frame: int, until: float, pace: float, events: list[Event], record: Record
 ) -> Done | None:
     """Steps to the frame's end. Returns its first step, or None when a formula stopped the run."""
     first: Done | None = None
@@ -122,7 +123,9 @@ def _frame(
             events.append(Event(now, "stopped", (stopped.body,), str(stopped)))
             return None
         pieces += 1
-        first = done if first is None else first
+        if first is None:
+            first = done
+            record.keep_forces(frame, done)
         record.account(done)
         events += [_impact(world, hit, now) for hit in done.hits]
         _watch_wires(world, state, events)
@@ -195,9 +198,16 @@ def _watch_props(world: World, state: State, events: list[Event]) -> None:
 
 
 def _note_rest(
-    world: World, state: State, done: Done, motion: list[float], time: float, events: list[Event]
+    world: World,
+    state: State,
+    done: Done,
+    motion: list[float],
+    time: float,
+    events: list[Event],
+    settled: bool,
 ) -> None:
-    """Rest by exponentially smoothed motion (Cheema and LaViola), and by acceleration."""
+    """Rest by exponentially smoothed motion (Cheema and LaViola), and by acceleration; at the latest
+    when the whole scene has settled. motion: smoothed so far, (m/s)², changed."""
     for i, label in enumerate(world.labels):
         at = 3 * i
         if not world.inverse[at]:
@@ -208,15 +218,20 @@ def _note_rest(
         pulled = hypot(done.acceleration[at], done.acceleration[at + 1])
         if pulled > RULE.calm_acceleration:
             motion[i] = max(motion[i], RULE.calm)
+        if settled:
+            motion[i] = 0.0
         if motion[i] < RULE.calm <= was:
             events.append(Event(time, "rest", (label,), f"{label} rests"))
 
 
-def _settled(world: World, before: list[float], after: list[float], done: Done) -> bool:
-    """Whether nothing will ever change: all is still, was still a frame ago, and nothing reads time."""
+def _settled(world: World, start: tuple[list[float], list[float]], state: State, done: Done) -> bool:
+    """Whether nothing will ever change: all is still, was still and in its place a frame ago, and
+    nothing reads time."""
+    pos, vel = start
     return (
         world.timeless
-        and all(abs(v) < RULE.still for v in before)
-        and all(abs(v) < RULE.still for v in after)
+        and all(abs(v) < RULE.still for v in vel)
+        and all(abs(v) < RULE.still for v in state.vel)
+        and all(abs(a - b) < RULE.still for a, b in zip(pos, state.pos, strict=True))
         and all(abs(a) < 1e-6 for a in done.acceleration)
     )

@@ -34,6 +34,8 @@ class SolveRule:
     What is left over after the last is taken up by the next step, which starts from here."""
 
 
+STICK = 1 - 1e-9
+"""Share of Coulomb's limit below which a row sticks; rounding alone must not make it."""
 RIDGE = 1e-13
 """Added to the linear system's diagonal, as a share of its trace: three digits above rounding."""
 
@@ -45,6 +47,7 @@ def solve(rows: list[Row], vel: list[float], inverse: list[float], rule: SolveRu
         if _sweep(rows, vel, inverse, rule):
             return
         _leap(rows, vel, inverse)
+    _sweep(rows, vel, inverse, rule)
 
 
 def _sweep(rows: list[Row], vel: list[float], inverse: list[float], rule: SolveRule) -> bool:
@@ -101,37 +104,35 @@ def _sweep(rows: list[Row], vel: list[float], inverse: list[float], rule: SolveR
 
 
 def _leap(rows: list[Row], vel: list[float], inverse: list[float]) -> None:
-    """Solves the rows under force as one linear system, sticking where they stick and sliding the
-    way they slide; keeps the answer only as far as every impulse stays what it may be."""
+    """Solves the rows under force as one linear system, sticking where they stick; friction that
+    slides stays what it is until the next sweep, which keeps the system symmetric and definite. The
+    answer is taken only as far as every contact still pushes."""
     size = len(vel)
     equations: list[tuple[Row, bool]] = []
     for row in rows:
         if not row.given and (row.pn > 0.0 or row.low < 0.0):
             equations.append((row, False))
-        if row.mu > 0.0 and row.pn > 0.0 and abs(row.pt) < row.mu * row.pn:
+        # It sticks if the impulse that would stop its slip is within the cone.
+        if row.mu > 0.0 and abs(row.pt - row.slip(vel) * row.kt) < STICK * row.mu * row.pn:
             equations.append((row, True))
     if not equations:
         return
     # Rows of the Jacobian: of the gap, or of the slip along it …
     jacobian = np.zeros((len(equations), size))
-    rubbing = np.zeros((len(equations), size))
     wanted = np.zeros(len(equations))
     for k, (row, along) in enumerate(equations):
         i, j = row.i3, row.j3
-        slip = (row.ny, -row.nx, -row.ta, -row.ny, row.nx, row.tb) if row.mu > 0.0 else ()
         if along:
-            jacobian[k, i : i + 3], jacobian[k, j : j + 3] = slip[:3], slip[3:]
-            continue
-        jacobian[k, i : i + 3] = (-row.nx, -row.ny, -row.ca)
-        jacobian[k, j : j + 3] = (row.nx, row.ny, row.cb)
-        wanted[k] = -row.bias
-        if slip and abs(row.pt) >= row.mu * row.pn:
-            rubbing[k, i : i + 3], rubbing[k, j : j + 3] = slip[:3], slip[3:]
-            rubbing[k] *= np.copysign(row.mu, row.pt)
-    # … what each unknown impulse does to the bodies (a sliding row rubs as it presses) …
-    effect = (jacobian + rubbing) * np.asarray(inverse)
-    # … and the change of all of them that gives every row its rate. Rows that say the same twice
-    # make the system singular: a hair on the diagonal shares the load among them.
+            jacobian[k, i : i + 3] = (row.ny, -row.nx, -row.ta)
+            jacobian[k, j : j + 3] = (-row.ny, row.nx, row.tb)
+        else:
+            jacobian[k, i : i + 3] = (-row.nx, -row.ny, -row.ca)
+            jacobian[k, j : j + 3] = (row.nx, row.ny, row.cb)
+            wanted[k] = -row.bias
+    # … what each unknown impulse does to the bodies, and the change of all of them that gives every
+    # row its rate. Rows that say the same twice make the system singular: a hair on the diagonal
+    # shares the load among them.
+    effect = jacobian * np.asarray(inverse)
     system = jacobian @ effect.T
     system.flat[:: len(equations) + 1] += RIDGE * float(np.trace(system))
     change = np.linalg.solve(system, wanted - jacobian @ np.asarray(vel))
@@ -139,12 +140,10 @@ def _leap(rows: list[Row], vel: list[float], inverse: list[float]) -> None:
     for (row, along), step in zip(equations, change.tolist(), strict=True):
         if not along and row.low == 0.0 and row.pn + step < 0.0:
             share = min(share, row.pn / -step)
-    moved = share * change
-    for (row, along), step in zip(equations, moved.tolist(), strict=True):
+    change *= share
+    for (row, along), step in zip(equations, change.tolist(), strict=True):
         if along:
             row.pt += step
         else:
-            if row.mu > 0.0 and abs(row.pt) >= row.mu * row.pn:
-                row.pt += float(np.copysign(row.mu, row.pt)) * step
             row.pn += step
-    vel[:] = (np.asarray(vel) + moved @ effect).tolist()
+    vel[:] = (np.asarray(vel) + change @ effect).tolist()

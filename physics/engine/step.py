@@ -147,7 +147,11 @@ def step(world: World, state: State, h: float, usual: float, patient: bool = Tru
     work = _worked(acts, pos, after, middle)
     acceleration = [(n - v) / h for n, v in zip(new, vel, strict=True)]
     if closed:
+        level = _potential(world, after)
         _close_up(closed, after, inverse)
+        if any(row.kind != WIRE for row in closed):
+            # What a contact lifts had fallen too far: that much less was turned into heat.
+            heat -= _potential(world, after) - level
     state.pos, state.vel = after, new
     state.time += h
     state.rows = {row.name: row for row in rows}
@@ -300,6 +304,15 @@ def _close_up(rows: list[Row], pos: list[float], inverse: list[float]) -> None:
             row.push(pos, inverse, -gap * row.kn, 0.0)
         if not worst:
             return
+
+
+def _potential(world: World, pos: list[float]) -> float:
+    gx, gy = world.gravity
+    return -sum(
+        mass * (gx * pos[3 * i] + gy * pos[3 * i + 1])
+        for i, mass in enumerate(world.mass)
+        if world.inverse[3 * i]
+    )
 
 
 def _kinetic(world: World, vel: list[float]) -> float:
