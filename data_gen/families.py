@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import cos, exp, sin
 
 import numpy as np
 
@@ -62,16 +63,15 @@ RULE = FamilyRule()
 
 def circle(rng: np.random.Generator) -> FloatArray:
     """Round closed curves: ovals, eggs, slightly boxy or spiralling ones; often begun at the top."""
-    z = rng.standard_normal(8)
-    u = rng.random(6)
-    aspect = float(np.exp(RULE.aspect * z[0] * (1.8 if u[0] < 0.15 else 1.0)))
+    u, z = rng.random(6).tolist(), rng.standard_normal(8).tolist()
+    aspect = exp(RULE.aspect * z[0] * (1.8 if u[0] < 0.15 else 1.0))
     start = -np.pi / 2 + (0.5 * z[1] if u[1] < 0.6 else 2 * np.pi * u[2])
     spread = RULE.closing * (2.5 if u[3] < 0.2 else 1.0)
-    sweep = 2 * np.pi * float(np.clip(1.02 + spread * z[2], 0.83, 1.3))
+    sweep = 2 * np.pi * min(max(1.02 + spread * z[2], 0.83), 1.3)
     squareness = 2.0 + 0.35 * max(-0.8, z[3])
-    egg = float(np.clip(0.13 * z[4], -0.4, 0.4))
+    egg = min(max(0.13 * z[4], -0.4), 0.4)
     path = ideals.superellipse((0, 0), (0.5 * aspect**0.5, 0.5 / aspect**0.5), start, sweep, squareness, egg)
-    drift = 1.0 + 0.05 * z[5] * np.linspace(-0.5, 0.5, len(path))
+    drift = 1.0 + 0.05 * z[5] * (np.arange(len(path)) / len(path) - 0.5)
     path = path * drift[:, None]
     if z[6] > RULE.late_ring:
         path = _sparse(path, rng)
@@ -80,7 +80,7 @@ def circle(rng: np.random.Generator) -> FloatArray:
 
 def polygon(rng: np.random.Generator) -> FloatArray:
     """Convex polygons of 3 to 8 corners, sides a little bent, closed within a few percent."""
-    u = rng.random(6)
+    u = rng.random(6).tolist()
     corners = _convex_corners(rng, u[0])
     start = float(int(u[1] * len(corners)))
     if u[2] < RULE.mid_side:
@@ -93,7 +93,7 @@ def polygon(rng: np.random.Generator) -> FloatArray:
 
 def spring(rng: np.random.Generator) -> FloatArray:
     """Zig-zags of five legs or more and coils of three loops or more, at any angle, often with leads."""
-    u, z = rng.random(10), rng.standard_normal(4)
+    u, z = rng.random(10).tolist(), rng.standard_normal(4).tolist()
     lead = 0.0 if u[0] < 0.5 else 0.03 + 0.17 * u[1]
     angle = 0.25 * z[0] if u[2] < 0.6 else 2 * np.pi * u[3]
     if u[4] < RULE.zigzag:
@@ -119,7 +119,7 @@ def spring(rng: np.random.Generator) -> FloatArray:
 
 def wire(rng: np.random.Generator) -> FloatArray:
     """Nearly straight strokes at any angle: bent a little, sometimes with a run-back at the end."""
-    u, z = rng.random(5), rng.standard_normal(3)
+    u, z = rng.random(5).tolist(), rng.standard_normal(3).tolist()
     along = np.linspace(0.0, 1.0, 24)
     sag = 0.03 * z[0] * (2.0 if u[0] < 0.12 else 1.0)
     skew = 0.02 * z[1]
@@ -253,7 +253,7 @@ def _lone_strokes(pool: str) -> list[list[FloatArray]]:
 
 def _weight(name: str) -> int:
     """How often a symbol is drawn against the others: digits and braces are met most, and are nearest to other kinds."""
-    return 3 if name.isdigit() or name.startswith("brace") else 1
+    return 5 if name.startswith("brace") else 3 if name.isdigit() else 1
 
 
 RING_OR_TRIANGLE = frozenset({"0", "o", "O", r"\Delta", ".", r"\cdot", r"\ldots"})
@@ -310,16 +310,16 @@ def _sparse(path: FloatArray, rng: np.random.Generator) -> FloatArray:
 
 def _convex_corners(rng: np.random.Generator, which: float) -> FloatArray:
     """Corners of a triangle, rectangle, rhombus, parallelogram or general convex polygon, one unit large."""
-    u, z = rng.random(6), rng.standard_normal(16)
+    u, z = rng.random(6).tolist(), rng.standard_normal(4).tolist()
     if which < 0.40:
         # Triangles: upright isosceles, right-angled or any whose smallest angle stays above 15 degrees.
-        apex = np.array([0.5 + 0.25 * z[0], -np.exp(-0.15 + 0.4 * z[1])])
+        apex = np.array([0.5 + 0.25 * z[0], -exp(-0.15 + 0.4 * z[1])])
         if u[0] < 0.3:
             apex[0] = 0.0 if u[1] < 0.5 else 1.0
         corners = np.array([[0.0, 0.0], [1.0, 0.0], apex])
         angle = 0.08 * z[2] if u[2] < 0.65 else 2 * np.pi * u[3]
     elif which < 0.84:
-        aspect = float(np.exp(0.5 * z[0]))
+        aspect = exp(0.5 * z[0])
         half = 0.5 * np.array([aspect**0.5, aspect**-0.5])
         corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * half
         if which > 0.78:
@@ -335,23 +335,24 @@ def _convex_corners(rng: np.random.Generator, which: float) -> FloatArray:
         corners = 0.5 * np.column_stack([np.cos(around), np.sin(around)])
         angle = 2 * np.pi * u[3]
     jitter = 0.022 * rng.standard_normal(corners.shape)
-    squeeze = np.array([1.0, float(np.exp(0.15 * z[3]))])
+    squeeze = np.array([1.0, exp(0.15 * z[3])])
     return _turned(corners + jitter, angle) * squeeze
 
 
 def _bent_sides(path: FloatArray, rng: np.random.Generator) -> FloatArray:
     """Each straight side as a shallow arc of its own."""
-    steps = np.linspace(0.0, 1.0, 10)[:-1]
-    begin, along = path[:-1], np.diff(path, axis=0)
-    across = np.column_stack([-along[:, 1], along[:, 0]])
-    sag = RULE.bend * rng.standard_normal(len(along))
-    bulge = 4 * steps * (1 - steps)
-    sides = (
-        begin[:, None]
-        + steps[None, :, None] * along[:, None]
-        + (sag[:, None] * bulge)[..., None] * across[:, None]
-    )
+    along = path[1:] - path[:-1]
+    sag = RULE.bend * rng.standard_normal((len(along), 1))
+    sides = np.empty((len(along), len(_STEPS), 2))
+    for axis, sense in ((0, -1), (1, 1)):
+        across = sense * sag * along[:, 1 - axis, None]
+        sides[..., axis] = path[:-1, axis, None] + _STEPS * along[:, axis, None] + _BULGE * across
     return np.concatenate([sides.reshape(-1, 2), path[-1:]])
+
+
+_STEPS = np.arange(9) / 9
+_BULGE = 4 * _STEPS * (1 - _STEPS)
+"""A parabola's rise along a side whose sagitta is one."""
 
 
 def _with_tail(path: FloatArray, rng: np.random.Generator) -> FloatArray:
@@ -369,7 +370,7 @@ def _with_tail(path: FloatArray, rng: np.random.Generator) -> FloatArray:
 
 def _rounded_peaks(peaks: FloatArray) -> FloatArray:
     """A wave through the same peaks: half a cosine between neighbours."""
-    steps = np.linspace(0.0, 1.0, 9)[:-1]
+    steps = np.arange(8) / 8
     ease = (1 - np.cos(np.pi * steps)) / 2
     x = peaks[:-1, None, 0] + steps * np.diff(peaks[:, 0])[:, None]
     y = peaks[:-1, None, 1] + ease * np.diff(peaks[:, 1])[:, None]
@@ -391,5 +392,4 @@ def _directed(path: FloatArray, u: float) -> FloatArray:
 
 
 def _turned(path: FloatArray, angle: float) -> FloatArray:
-    cos, sin = np.cos(angle), np.sin(angle)
-    return path @ np.array([[cos, sin], [-sin, cos]])
+    return path @ np.array([[cos(angle), sin(angle)], [-sin(angle), cos(angle)]])

@@ -6,7 +6,10 @@ curves are dense enough to pass for smooth (a point at least every 6 degrees).
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Sequence
+from itertools import accumulate, pairwise
+from math import dist
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,11 +33,16 @@ def superellipse(
 
     squareness k: 2 an ellipse, above 2 boxy; egg in (−1, 1): narrower towards +x.
     """
-    angle = start + np.linspace(0.0, sweep, max(8, int(abs(sweep) / ARC_STEP) + 2))
+    count = max(8, int(abs(sweep) / ARC_STEP) + 2)
+    angle = start + np.arange(count) * (sweep / (count - 1))
     cos, sin = np.cos(angle), np.sin(angle)
-    reach = (np.abs(cos) ** squareness + np.abs(sin) ** squareness) ** (-1.0 / squareness)
-    x, y = reach * cos, reach * sin * (1.0 - egg * cos)
-    return np.column_stack([centre[0] + radii[0] * x, centre[1] + radii[1] * y])
+    if squareness != 2.0:
+        reach = (np.abs(cos) ** squareness + np.abs(sin) ** squareness) ** (-1.0 / squareness)
+        cos, sin = reach * cos, reach * sin
+    points = np.empty((count, 2))
+    points[:, 0] = centre[0] + radii[0] * cos
+    points[:, 1] = centre[1] + radii[1] * sin * (1.0 - egg * cos)
+    return points
 
 
 def circle(centre: Point, radius: float, start: float = 0.0, sweep: float = 2 * np.pi) -> FloatArray:
@@ -45,16 +53,28 @@ def circle(centre: Point, radius: float, start: float = 0.0, sweep: float = 2 * 
 def polygon(vertices: ArrayLike, start: float = 0.0, overlap: float = 0.0) -> FloatArray:
     """Once around the polygon, from `start` (sides travelled, fractional: 0.5 is the middle of the first
     side), ending `overlap` (fraction of the perimeter) past the start, or before it where negative."""
-    corners = np.asarray(vertices, dtype=float)
-    loop = np.concatenate([corners, corners[:1]])
-    travelled = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(loop, axis=0), axis=1))])
+    corners: list[list[float]] = np.asarray(vertices, dtype=float).tolist()
+    loop = [*corners, corners[0]]
+    travelled = [0.0, *accumulate(dist(a, b) for a, b in pairwise(loop))]
     perimeter = travelled[-1]
-    begin = float(np.interp(start % len(corners), np.arange(len(loop)), travelled))
-    end = begin + perimeter * (1.0 + overlap)
-    knots = np.concatenate([travelled[:-1] + turn * perimeter for turn in range(3)])
-    inside = knots[(knots > begin + 1e-9 * perimeter) & (knots < end - 1e-9 * perimeter)]
-    at = np.concatenate([[begin], inside, [end]]) % perimeter
-    return np.column_stack([np.interp(at, travelled, loop[:, axis]) for axis in (0, 1)])
+
+    def at(distance: float) -> list[float]:
+        place = distance % perimeter
+        side = min(bisect_right(travelled, place), len(corners)) - 1
+        share = (place - travelled[side]) / (travelled[side + 1] - travelled[side] or 1.0)
+        (x, y), (there_x, there_y) = loop[side], loop[side + 1]
+        return [x + share * (there_x - x), y + share * (there_y - y)]
+
+    whole, part = divmod(start % len(corners), 1.0)
+    begin = travelled[int(whole)] + part * (travelled[int(whole) + 1] - travelled[int(whole)])
+    end, hair = begin + perimeter * (1.0 + overlap), 1e-9 * perimeter
+    passed = [
+        corner
+        for turn in range(3)
+        for corner, reached in zip(corners, travelled[:-1], strict=True)
+        if begin + hair < reached + turn * perimeter < end - hair
+    ]
+    return np.array([at(begin), *passed, at(end)])
 
 
 def line(start: Point, end: Point) -> FloatArray:

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtr
 
-from data_gen.perturb import bow, compose, field, wobble
+from data_gen.perturb import bow, compose, field, sizes, wobble
 from data_gen.writers import Writer, habits
 from sketch.geometry import resample
 from sketch.ink import FloatArray, Stroke
@@ -30,8 +30,8 @@ Indices = NDArray[np.int64]
 class PenRule:
     """Numbers of the pen motion."""
 
-    path_points: int = 160
-    """Points that carry the meant path: 13 for each loop of a spring with 12 coils."""
+    path_points: int = 128
+    """Points that carry the meant path: 14 for each loop of a spring with nine coils."""
     strokelet_turn: float = np.radians(65.0)
     """A new strokelet begins each time the path has turned this far: every corner, every sixth of a circle."""
     sigma: float = 0.35
@@ -48,7 +48,7 @@ class PenRule:
     """Strokelets of one stroke never take longer than this together, seconds."""
     fewest: int = 2
     """A stroke that moves has at least this many samples."""
-    most: int = 360
+    most: int = 300
     """More samples than this are thinned evenly; real strokes of these kinds stay below."""
     hook: tuple[float, float] = (0.02, 0.06)
     """Length of a hook, fraction of the stroke's size."""
@@ -174,13 +174,15 @@ def _travel(
 def _strokelets(meant: FloatArray) -> tuple[Indices, Indices, Indices]:
     """Cuts each path where it has turned enough: owner, first and last path point of each strokelet."""
     steps = meant.shape[1] - 1
-    step = np.diff(meant, axis=1)
-    heading = np.arctan2(step[..., 1], step[..., 0])
-    bend = np.abs((np.diff(heading, axis=1) + np.pi) % (2 * np.pi) - np.pi)
-    turned = np.cumsum(bend, axis=1) / RULE.strokelet_turn
+    x, y = np.diff(meant[..., 0], axis=1), np.diff(meant[..., 1], axis=1)
+    bend = np.arctan2(
+        x[:, :-1] * y[:, 1:] - y[:, :-1] * x[:, 1:], x[:, :-1] * x[:, 1:] + y[:, :-1] * y[:, 1:]
+    )
     # A strokelet begins at path point j + 1 where the turn so far passes a whole number.
-    begins = np.diff(np.floor(turned), axis=1, prepend=0.0) > 0
-    first = np.concatenate([np.ones((len(meant), 1), dtype=bool), begins], axis=1)
+    turned = (np.cumsum(np.abs(bend), axis=1) * (1 / RULE.strokelet_turn)).astype(int)
+    first = np.ones((len(meant), steps), dtype=bool)
+    first[:, 1] = turned[:, 0] > 0
+    np.greater(turned[:, 1:], turned[:, :-1], out=first[:, 2:])
     owner, from_ = np.nonzero(first)
     last = np.concatenate([owner[1:] != owner[:-1], [True]])
     return owner, from_, np.where(last, steps, np.concatenate([from_[1:], [0]]))
@@ -199,7 +201,7 @@ def _timing(
     pieces = np.bincount(owner)
     first = np.searchsorted(owner, np.arange(len(pieces)))
     rank = np.arange(len(owner)) - first[owner]
-    length = np.linalg.norm(np.diff(meant, axis=1), axis=2).sum(axis=1)
+    length = np.hypot(np.diff(meant[..., 0], axis=1), np.diff(meant[..., 1], axis=1)).sum(axis=1)
     duration = (share * length[owner] / RULE.unit_length) ** RULE.isochrony / habit["speed"][owner]
     duration = np.maximum(duration, RULE.shortest)
     duration *= np.exp(0.12 * normals[owner, rank % 6])
@@ -237,9 +239,8 @@ def _shaken(
     rngs: Sequence[np.random.Generator],
 ) -> FloatArray:
     """Tremor: an oscillation at the hand's own frequency and the digitiser's independent noise."""
-    sizes = np.linalg.norm(meant.max(axis=1) - meant.min(axis=1), axis=1)
     counts = np.diff(offsets)
-    amount = np.repeat(habit["tremor"] * sizes, counts)[:, None]
+    amount = np.repeat(habit["tremor"] * sizes(meant), counts)[:, None]
     noise = np.concatenate(
         [rng.standard_normal((n, 2)) for rng, n in zip(rngs, counts.tolist(), strict=True)]
     )

@@ -88,8 +88,8 @@ def wobble(amount: Amount) -> Perturbation:
         cos, sin = np.cos(np.outer(frequency, along)), np.sin(np.outer(frequency, along))
         waves = normals.reshape(len(paths), 2, 2, WAVES) * weight
         shift = waves[:, 0] @ cos + waves[:, 1] @ sin
-        scale = (_column(amount) * _sizes(paths)[:, None])[..., None]
-        return paths + scale * np.moveaxis(shift, 1, 2)
+        scale = (_column(amount) * sizes(paths)[:, None])[..., None]
+        return paths + np.moveaxis(scale * shift, 1, 2)
 
     return Perturbation(4 * WAVES, apply)
 
@@ -115,18 +115,29 @@ def field(amount: Amount) -> Perturbation:
     """
 
     def apply(paths: FloatArray, normals: FloatArray) -> FloatArray:
-        low, high = paths.min(axis=1, keepdims=True), paths.max(axis=1, keepdims=True)
-        size = np.maximum(_sizes(paths), 1e-9)[:, None, None]
-        x, y = np.moveaxis((paths - (low + high) / 2) / size * 2, -1, 0)
-        terms = np.stack([x * y, x**2 - y**2, x * (x**2 + y**2), y * (x**2 + y**2)], axis=1)
-        shift = np.einsum("bck,bkn->bnc", normals.reshape(len(paths), 2, 4), terms)
-        return paths + _column(amount)[..., None] * size * shift
+        low, high = extents(paths)
+        size = np.maximum(np.hypot(*(high - low).T), 1e-9)[:, None]
+        middle = (low + high) / 2
+        x, y = ((paths[..., axis] - middle[:, axis, None]) * (2 / size) for axis in (0, 1))
+        square = x * x + y * y
+        terms = np.stack([x * y, x * x - y * y, x * square, y * square], axis=1)
+        shift = normals.reshape(len(paths), 2, 4) @ terms
+        return paths + np.moveaxis((_column(amount) * size)[..., None] * shift, 1, 2)
 
     return Perturbation(8, apply)
 
 
-def _sizes(paths: FloatArray) -> FloatArray:
-    return np.linalg.norm(paths.max(axis=1) - paths.min(axis=1), axis=1)
+def extents(paths: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Low and high corners of each path's bounding box, (B, 2) each."""
+    # Axis by axis: reducing the middle of three axes is several times slower.
+    x, y = paths[..., 0], paths[..., 1]
+    return np.stack([x.min(axis=1), y.min(axis=1)], axis=1), np.stack([x.max(axis=1), y.max(axis=1)], axis=1)
+
+
+def sizes(paths: FloatArray) -> FloatArray:
+    """Diagonal of each path's bounding box, (B,)."""
+    low, high = extents(paths)
+    return np.hypot(high[:, 0] - low[:, 0], high[:, 1] - low[:, 1])
 
 
 def _column(amount: Amount) -> FloatArray:

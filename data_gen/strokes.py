@@ -28,6 +28,8 @@ class StrokeRule:
     """Log-uniform range of a stroke's size, page units; with the pixel grid it sets how coarse ink is."""
     tap_size: tuple[float, float] = (0.3, 3.0)
     """The same for taps: a resting hand moves by a pixel or two."""
+    tap_grid: float = 0.5
+    """A resting pen's points are at least this coarse, page units: a device reports no move smaller."""
     loose: float = 1.5
     """Letters waver this much more than shapes, against their size: they are small and quick."""
 
@@ -102,7 +104,7 @@ def _meant(rng: np.random.Generator, cumulative: FloatArray) -> tuple[StrokeKind
     low, high = RULE.size
     if kind == "tap":
         low, high = RULE.tap_size
-        writer = replace(writer, hooks=0.0)
+        writer = replace(writer, hooks=0.0, grid=max(writer.grid, RULE.tap_grid))
     elif kind == "math":
         writer = replace(writer, wobble=RULE.loose * writer.wobble)
     size = low * (high / low) ** large

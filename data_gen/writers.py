@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from math import exp
+from operator import attrgetter
 
 import numpy as np
 
@@ -52,29 +54,30 @@ class Writer:
 
 def sample_writer(rng: np.random.Generator) -> Writer:
     """A person drawn at random. Consumes the same number of variates whatever comes out."""
-    u, z = rng.random(9), rng.standard_normal(8)
+    u, z = rng.random(9).tolist(), rng.standard_normal(6).tolist()
     return Writer(
-        slant=float(0.1 + 0.15 * z[0]),
-        stretch=float(0.15 * z[1]),
-        wobble=float(0.010 * np.exp(0.6 * z[2])),
-        tremor=float(0.0013 * np.exp(0.7 * z[3])),
-        overlap=float(0.05 + 0.4 * u[0]),
-        speed=float(np.exp(np.log(5.5) + 0.35 * z[4])),
-        hooks=float(0.35 * u[1] ** 2),
-        gap=float(0.02 * z[5]),
-        rate=float(np.exp(np.log(20) + (np.log(250) - np.log(20)) * u[2])),
+        slant=0.1 + 0.15 * z[0],
+        stretch=0.15 * z[1],
+        wobble=0.010 * exp(0.6 * z[2]),
+        tremor=0.0013 * exp(0.7 * z[3]),
+        overlap=0.05 + 0.4 * u[0],
+        speed=5.5 * exp(0.35 * z[4]),
+        hooks=0.35 * u[1] ** 2,
+        gap=0.02 * z[5],
+        rate=20.0 * (250.0 / 20.0) ** u[2],
         grid=(0.0, 1.0, 0.25)[int(3 * u[3])],
-        late=float(max(0.0, 0.9 * (u[8] - 0.8))),
-        zigzag=float(u[4]),
-        pieces=float(0.5 * u[5] ** 2),
-        height=float(16 + 14 * u[6]),
-        pressure=float(0.35 + 0.35 * u[7]),
+        late=max(0.0, 0.9 * (u[8] - 0.8)),
+        zigzag=u[4],
+        pieces=0.5 * u[5] ** 2,
+        height=16 + 14 * u[6],
+        pressure=0.35 + 0.35 * u[7],
     )
 
 
 def habits(writers: Sequence[Writer]) -> dict[str, FloatArray]:
     """The writers' habits column by column: field -> (len(writers),)."""
-    return {
-        item.name: np.array([getattr(writer, item.name) for writer in writers], dtype=float)
-        for item in fields(Writer)
-    }
+    table = np.array([_HABITS(writer) for writer in writers], dtype=float)
+    return {item.name: table[:, column] for column, item in enumerate(fields(Writer))}
+
+
+_HABITS = attrgetter(*(item.name for item in fields(Writer)))

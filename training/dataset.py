@@ -43,14 +43,14 @@ RELATIVE_SIZE: dict[StrokeKind, tuple[float, float]] = {
     "spring": (0.06, 1.0),
     "wire": (0.05, 1.0),
     "arrow": (0.05, 1.0),
-    "tap": (0.001, 0.02),
+    "tap": (0.0005, 0.01),
     "scribble": (0.04, 1.0),
     "lasso": (0.08, 1.0),
     "math": (0.01, 0.6),
 }
 """Log-uniform range of a stroke's size against its page's, by kind: rough on purpose."""
 
-FORMULA_SIZE = (0.006, 0.045)
+FORMULA_SIZE = (0.004, 0.05)
 """The same for strokes inside formulas: letters 2 to 4 % of a page, their bars and dots less."""
 
 
@@ -107,8 +107,9 @@ def _imagined_page(strokes: Sequence[LabelledStroke], rng: np.random.Generator) 
         row[1] = max(low + (high - low) * u[1], np.log(RULE.smallest)) / 3.0
         if item.kind == "lasso":
             row[2] = 0.03 + 0.9 * u[2]
-        elif item.kind in ("circle", "polygon") and u[3] < 0.4:
-            row[2] = 0.15 * u[2]
+        elif item.kind in ("circle", "polygon") and u[3] < 0.6:
+            # Taps lie inside, and a neighbour's centre may lie inside the bounding box.
+            row[2] = 0.4 * u[2] ** 2
     return found
 
 

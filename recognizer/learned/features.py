@@ -32,8 +32,10 @@ class FeatureRule:
     """Directions of the support function: 5 degrees apart over a half turn and back."""
     few_points: int = 12
     """A stroke with this many different points or more is not a dot; beyond it the count is not looked at."""
-    smallest: float = 1e-3
+    smallest: float = 5e-4
     """Relative sizes on a page below this count as this."""
+    nothing: float = 1e-6
+    """Lengths (of a stroke of size one) and angles below this are rounding, not drawing."""
 
 
 RULE = FeatureRule()
@@ -137,7 +139,7 @@ def _global(shared: _Shared, few: FloatArray, still: NDArray[np.bool_]) -> Float
         np.ptp(across, axis=1) / _positive(np.ptp(along, axis=1)),
         signed / (2 * np.pi),
         absolute / (2 * np.pi),
-        np.abs(signed) / _positive(absolute),
+        np.abs(signed) / np.maximum(absolute, RULE.nothing),
         _sign_changes(inner, 0.05) / 10,
         _peaks(sharp, RULE.corner) / 8,
         sharp.max(axis=1) / np.pi,
@@ -239,7 +241,7 @@ def _crossings(unit: FloatArray) -> FloatArray:
     step = np.diff(unit, axis=1)
     normal = np.stack([-step[..., 1], step[..., 0]], axis=2)
     offset = (unit[:, :-1] * normal).sum(axis=2)
-    left = normal @ np.swapaxes(unit, 1, 2) - offset[..., None] > 1e-12
+    left = normal @ np.swapaxes(unit, 1, 2) - offset[..., None] > RULE.nothing**2
     parted = left[..., 1:] != left[..., :-1]
     hits = parted & np.swapaxes(parted, 1, 2) & _APART
     return np.pad(hits.sum(axis=2).astype(float), ((0, 0), (0, 1)))
@@ -250,13 +252,13 @@ def _principal(unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     covariance = np.einsum("bni,bnj->bij", unit, unit) / unit.shape[1]
     spread, axes = np.linalg.eigh(covariance)
     across, along = (unit @ axes)[..., 0], (unit @ axes)[..., 1]
-    scale = np.sqrt(np.maximum(spread, 1e-9))
+    scale = np.sqrt(np.maximum(spread, RULE.nothing))
     return along, across, np.hypot(across / scale[:, :1], along / scale[:, 1:])
 
 
 def _sign_changes(values: FloatArray, threshold: float) -> FloatArray:
     """How often each row swings from above +h to below −h or back, h a share of its largest magnitude, (B,)."""
-    height = threshold * np.abs(values).max(axis=1, keepdims=True)
+    height = np.maximum(threshold * np.abs(values).max(axis=1, keepdims=True), RULE.nothing)
     side = np.where(values > height, 1, np.where(values < -height, -1, 0))
     held = np.where(side != 0, np.arange(values.shape[1]), 0)
     last = np.take_along_axis(side, np.maximum.accumulate(held, axis=1), axis=1)

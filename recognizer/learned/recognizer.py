@@ -23,8 +23,9 @@ from sketch.page import STROKE_KINDS, StrokeKind
 
 WEIGHTS = Path(__file__).parent / "weights" / "strokes.onnx"
 
-REJECT_BELOW = 0.5
-"""Confidence below which the net would rather not say: the best kind is then less likely than all others together."""
+REJECT_BELOW = 0.35
+"""Confidence below which the net would rather not say: a rejected stroke belongs to nobody, and on a page a
+doubtful reading serves better than none."""
 
 BATCH = 256
 """Strokes looked at together: bounds memory on pages of thousands of strokes (crossings need 64 × 64 each)."""

@@ -71,7 +71,7 @@ def test_haste_rounds_corners() -> None:
 
 
 def test_the_sampling_rate_is_the_writers() -> None:
-    for rate in (20.0, 60.0, 240.0):
+    for rate in (20.0, 60.0, 120.0):
         _, times = _drawn(RECTANGLE, replace(STEADY, rate=rate))
         assert 1 / np.median(np.diff(times)) == pytest.approx(rate, rel=0.15)
 
