@@ -28,7 +28,7 @@ def report(contest: Contest, command: str, jobs: int = 1, progress: Progress = s
     pages it draws every diagram in every recognizer's hands."""
     drawn = (
         illustrations(contest.seed, contest.names, jobs, progress)
-        if contest.seed is not None and contest.pages
+        if contest.seed is not None and contest.pages and contest.pages.pages
         else []
     )
     environment = Environment(
@@ -42,8 +42,8 @@ def report(contest: Contest, command: str, jobs: int = 1, progress: Progress = s
         lead=_lead(contest),
         style=Markup(style),
         facts=_facts(contest, command),
-        strokes=_strokes(contest) if contest.stroke_results else None,
-        pages=_pages(contest) if contest.page_results else None,
+        strokes=_strokes(contest) if contest.strokes.rows else None,
+        pages=_pages(contest) if contest.pages and contest.pages.pages else None,
         problems=_problems(drawn),
         footer="Made by inklined. Everything shown is in this file; it loads nothing.",
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from evaluation.metrics.strokes import StrokeScores
 from evaluation.stroke_contest import DIAGRAM_KINDS, StrokeResult, pairings
@@ -12,6 +12,9 @@ from sketch.page import STROKE_KINDS, StrokeKind
 
 TOLD = 5
 """Notices of the reader of files that are shown; the JSON file holds all of them."""
+
+LISTED = 12
+"""Labels that a sentence lists; the JSON file holds all of them."""
 
 
 def stroke_table(suite: StrokeSuite, results: Sequence[StrokeResult]) -> Table:
@@ -69,15 +72,16 @@ def stroke_notes(suite: StrokeSuite, results: Sequence[StrokeResult]) -> list[st
             "summed over its strokes."
         )
     for result in results:
-        if result.unclaimable:
-            labels = ", ".join(f"{label} ({n})" for label, n in result.unclaimable.items())
+        beyond = {label: n for label, n in result.unclaimable.items() if label in STROKE_KINDS}
+        if beyond:
             notes.append(
-                f"{result.name} cannot claim {labels}; stroke kinds among them count as errors, and without "
-                f"them its balanced accuracy is {_percent(result.claimable.balanced_accuracy)} %."
+                f"{result.name} cannot claim {_listed(beyond)}, which count as errors; without them its balanced "
+                f"accuracy is {_percent(result.claimable.balanced_accuracy)} %."
             )
     if suite.unknown:
-        labels = ", ".join(f"{label} ({n})" for label, n in suite.unknown.items())
-        notes.append(f"Labels that are no stroke kind are not scored: {labels}.")
+        notes.append(
+            f"No recognizer can claim labels that are no stroke kind; they are not scored: {_listed(suite.unknown)}."
+        )
     if suite.unlabelled:
         notes.append(f"{suite.unlabelled} rows bear no label and are not scored.")
     notes += [
@@ -88,6 +92,13 @@ def stroke_notes(suite: StrokeSuite, results: Sequence[StrokeResult]) -> list[st
     ]
     more = len(suite.notices) - TOLD
     return [*notes, *suite.notices[:TOLD], *([f"… and {more} more such notices."] if more > 0 else [])]
+
+
+def _listed(labels: Mapping[str, int]) -> str:
+    """The most frequent labels with their counts, and how many are left."""
+    shown = [f"{label} ({n})" for label, n in list(labels.items())[:LISTED]]
+    more = len(labels) - len(shown)
+    return ", ".join(shown) + (f" and {more} more labels" if more > 0 else "")
 
 
 def _percent(share: float | None) -> str:

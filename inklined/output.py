@@ -4,43 +4,43 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Generator, Iterable
-from contextlib import contextmanager
+from collections.abc import Iterable
 from pathlib import Path
+
+from sketch.files import store
 
 
 class OutputError(ValueError):
     """A place that cannot be written to as asked: the message says which and what would be right."""
 
 
-@contextmanager
-def replacing(path: Path, inputs: Iterable[Path] = ()) -> Generator[Path]:
-    """A path beside `path`, of the same suffixes, to write to; it takes the place of `path` when the
-    block ends well and is removed when it does not.
-
-    Raises OutputError when the folder is not there, when `path` is a folder, or when it is one of
-    the `inputs`.
-    """
-    check_writable(path, inputs)
-    handle, name = tempfile.mkstemp(prefix=".inklined-", suffix="".join(path.suffixes), dir=path.parent)
-    os.close(handle)
-    draft = Path(name)
-    try:
-        yield draft
-        draft.chmod(0o666 & ~_umask())
-        draft.replace(path)
-    finally:
-        draft.unlink(missing_ok=True)
-
-
 def write_text(path: Path, text: str, inputs: Iterable[Path] = ()) -> None:
-    """Writes UTF-8 text. Raises OutputError as `replacing`."""
-    with replacing(path, inputs) as draft:
-        draft.write_text(text, encoding="utf-8")
+    """Writes UTF-8 text. Raises OutputError as `check_writable`, FileError when writing fails."""
+    check_writable(path, inputs)
+    store.write_text(path, text)
+
+
+def write_bytes(path: Path, data: bytes, inputs: Iterable[Path] = ()) -> None:
+    """Writes bytes by way of a draft beside `path`. Raises OutputError as `check_writable`, and when
+    writing fails."""
+    check_writable(path, inputs)
+    try:
+        handle, name = tempfile.mkstemp(prefix=".inklined-", dir=path.parent)
+        draft = Path(name)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(data)
+            draft.chmod(0o644)
+            draft.replace(path)
+        finally:
+            draft.unlink(missing_ok=True)
+    except OSError as error:
+        raise OutputError(f"{path} cannot be written: {error.strerror or error}") from None
 
 
 def check_writable(path: Path, inputs: Iterable[Path] = ()) -> None:
-    """Raises OutputError when `path` cannot be written, before any long work is done for it."""
+    """Raises OutputError when `path` cannot be written to, before any long work is done for it: when it
+    is a folder or one of the `inputs`, or when its folder is not there."""
     if path.is_dir():
         raise OutputError(f"{path} is a folder; name a file in it")
     if not path.parent.is_dir():
@@ -48,9 +48,3 @@ def check_writable(path: Path, inputs: Iterable[Path] = ()) -> None:
     for read in inputs:
         if path.exists() and read.exists() and path.samefile(read):
             raise OutputError(f"{path} is what was read; name another file to write to")
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

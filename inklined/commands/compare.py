@@ -56,6 +56,8 @@ def compare(
     from recognizer.roster import ROSTER
 
     names = known("--recognizer", recognizer or (), ROSTER) or tuple(ROSTER)
+    if not ink and not strokes and not pages:
+        raise typer.BadParameter("--strokes 0 --pages 0 leaves nothing to compare; give one of them a number")
     files = there(ink or ())
     place = report or (None if files else REPORT)
     for target in (place, json_file):
@@ -94,14 +96,15 @@ def _print(contest: Contest) -> None:
 
     if contest.strokes.rows:
         out.print(as_rich(stroke_table(contest.strokes, contest.stroke_results)))
-        out.print(as_rich(recall_table(contest.stroke_results)))
+        if contest.strokes.labels:
+            out.print(as_rich(recall_table(contest.stroke_results)))
         for note in stroke_notes(contest.strokes, contest.stroke_results):
             out.print(note, style="dim", markup=False)
-    for table in page_tables(contest.page_results):
+    paged = page_tables(contest.page_results)
+    for table in paged:
         out.print(as_rich(table))
-    if contest.page_results:
-        for note in page_notes():
-            out.print(note, style="dim", markup=False)
+    for note in page_notes() if paged else ():
+        out.print(note, style="dim", markup=False)
 
 
 def _as_typed() -> str:

@@ -35,7 +35,7 @@ def strokes(
 ) -> None:
     """Write labelled single strokes of all kinds as JSON Lines."""
     from data_gen.strokes import EQUAL, stream
-    from inklined.output import check_writable, replacing
+    from inklined.output import check_writable
     from inklined.terminal import out, progress
     from sketch.files import jsonl
     from sketch.ink import Ink
@@ -52,8 +52,7 @@ def strokes(
             )
             if len(rows) % 512 == 0:
                 tell("Drawing strokes", len(rows), count)
-    with replacing(file) as draft:
-        jsonl.write(draft, rows)
+    jsonl.write(file, rows)
     out.print(f"{len(rows)} strokes in {file}", markup=False)
 
 

@@ -58,12 +58,14 @@ def analyze(
             check_writable(target, [file])
 
     from inklined.show import page_json, page_tables
-    from inklined.terminal import as_rich
+    from inklined.terminal import as_rich, progress
     from inklined.terminal import out as terminal
     from sketch import svg as picture
     from sketch.files import document
 
-    page = read(file, recognizer)
+    with progress() as tell:
+        tell("Reading", 0, 1)
+        page = read(file, recognizer)
     if svg:
         write_text(svg, picture.draw(page), [file])
     if out:
@@ -91,7 +93,7 @@ def simulate(
     gif: Annotated[Path | None, typer.Option(help="Write the motion as an animation, in real time.")] = None,
 ) -> None:
     """Correct a page, set it in motion and say what happens."""
-    from inklined.output import check_writable, replacing, write_text
+    from inklined.output import check_writable, write_bytes, write_text
     from recognizer.roster import ROSTER
 
     known("--recognizer", [recognizer] if recognizer else (), ROSTER)
@@ -119,8 +121,7 @@ def simulate(
         if svg:
             write_text(svg, strip(motion, seconds), [file])
         if gif:
-            with replacing(gif, [file]) as draft:
-                draft.write_bytes(animation(motion, seconds, tell))
+            write_bytes(gif, animation(motion, seconds, tell), [file])
     for line in happened(motion, outcome(motion)):
         out.print(line, markup=False)
     for correction in motion.corrections:

@@ -121,6 +121,7 @@ def test_compare_on_a_file_writes_the_figures_in_the_agreed_form(tmp_path):
         assert result["unclaimable"]["star"] == 1
     assert figures["recognizers"]["paper"]["unclaimable"]["arrow"] > 0
     assert "star (1)" in " ".join(ran.stdout.split())
+    assert "paper cannot claim" in " ".join(ran.stdout.split())
     assert not (tmp_path / "report.html").exists()
 
 
@@ -231,6 +232,7 @@ def test_an_unknown_recognizer_is_refused_with_the_names_that_are_known(tmp_path
         ["compare", "--strkes", "5"],
         ["compare", "--strokes", "many"],
         ["compare", "--seed", "-1"],
+        ["compare", "--strokes", "0", "--pages", "0"],
         ["simulate"],
         ["simulate", "x.inklined", "--seconds", "-2"],
         ["generate", "strokes", "x.jsonl", "--kind", "cloud"],
