@@ -1,8 +1,9 @@
 """`paper`: the geometric rules of a sketch-based physics tutor (Cheema and LaViola), verbatim.
 
 Row R2 of FEATURES.md. The rules are the paper's, including what they cannot do: springs are
-coils, never zig-zags; taps, arrows, scribbles and lassos are not claimed at all. Where the paper
-gives no number, one was chosen from the geometry of the shapes, and none was tuned on ink.
+coils, never zig-zags; arrows, scribbles and lassos are not claimed at all. Its pages need the tap
+that fixes a body (row P3): a dot is told from its page as every other rival here tells it. Where
+the paper gives no number, one was chosen from the geometry of the shapes, and none was tuned on ink.
 
 Frame: equal-length segments on a path whose bounding box has a diagonal of 1.
 """
@@ -14,10 +15,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from recognizer.claims import Claim, claim_for
+from recognizer.geometric.context import dots
 from recognizer.geometric.crossings import crossings
 from recognizer.geometric.cusps import cusps
 from recognizer.preprocess import spaced, unit_path
-from sketch.geometry import path_length
+from sketch.geometry import diagonal, path_length
 from sketch.ink import FloatArray, Ink, Stroke
 from sketch.page import StrokeKind
 
@@ -46,14 +48,18 @@ RULES = PaperRules()
 
 
 class Paper:
-    """The published rules as a rival. It sees each stroke alone."""
+    """The published rules as a rival. It sees each stroke alone, but for dots, which are small beside others."""
 
     name = "paper"
-    claims: frozenset[StrokeKind] = frozenset({"circle", "polygon", "spring", "wire", "math"})
+    claims: frozenset[StrokeKind] = frozenset({"circle", "polygon", "spring", "wire", "tap", "math"})
 
     def recognize(self, ink: Ink) -> tuple[Claim, ...]:
         """One claim a stroke; never rejects."""
-        return tuple(claim_for(classify(stroke), RULES.certainty) for stroke in ink)
+        if not len(ink):
+            return ()
+        tiny = dots(ink, np.array([diagonal(stroke.points) for stroke in ink])).tolist()
+        kinds = ("tap" if dot else classify(stroke) for dot, stroke in zip(tiny, ink, strict=True))
+        return tuple(claim_for(kind, RULES.certainty) for kind in kinds)
 
 
 def classify(stroke: Stroke, rules: PaperRules = RULES) -> StrokeKind:

@@ -2,8 +2,9 @@
 
 Every rule is a sum of logarithms of soft comparisons, each near 0 where the stroke is as the kind
 should be and falling where it is not; `evidence` gives the sum for each kind. Thresholds lie
-where the geometry of neighbouring kinds puts them, midway between the shapes named; none was
-fitted to ink. Frame: lengths are fractions of the stroke's size (its bounding box's diagonal).
+where the geometry of neighbouring kinds puts them, midway between the shapes named. None was
+fitted by an optimiser, but some were added or moved after a look at strokes of people that earlier
+versions misread. Frame: lengths are fractions of the stroke's size (its bounding box's diagonal).
 """
 
 from __future__ import annotations

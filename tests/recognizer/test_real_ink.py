@@ -1,4 +1,7 @@
-"""People's ink: floors that the hand-made rivals must hold on it. Nothing was fitted to it."""
+"""People's ink: floors that the rivals must hold on it.
+
+The net never saw it. The hand-made rules were developed with an eye on it, so their figure flatters them.
+"""
 
 from __future__ import annotations
 
