@@ -58,8 +58,10 @@ class Paper:
         if not len(ink):
             return ()
         tiny = dots(ink, np.array([diagonal(stroke.points) for stroke in ink])).tolist()
-        kinds = ("tap" if dot else classify(stroke) for dot, stroke in zip(tiny, ink, strict=True))
-        return tuple(claim_for(kind, RULES.certainty) for kind in kinds)
+        return tuple(
+            claim_for("tap" if dot else classify(stroke), RULES.certainty)
+            for dot, stroke in zip(tiny, ink, strict=True)
+        )
 
 
 def classify(stroke: Stroke, rules: PaperRules = RULES) -> StrokeKind:
