@@ -106,37 +106,36 @@ class _Shared:
 
 
 def _sequence(shared: _Shared) -> FloatArray:
-    unit = shared.unit
-    channels = [
-        2 * unit[..., 0],
-        2 * unit[..., 1],
-        np.cos(shared.heading),
-        np.sin(shared.heading),
-        shared.turn / np.pi,
-        np.abs(shared.turn) / np.pi,
-        shared.wide / np.pi,
-        2 * _distance(unit - unit.mean(axis=1, keepdims=True)),
-        _distance(unit - unit[:, :1]),
-        _distance(unit - unit[:, -1:]),
-        np.cumsum(shared.turn, axis=1) / (4 * np.pi),
-        np.minimum(shared.crossings, 3.0) / 3.0,
-    ]
-    return np.stack(channels, axis=1)
+    unit, turn = shared.unit, shared.turn
+    found = np.empty((len(unit), len(SEQUENCE_CHANNELS), POINTS))
+    found[:, 0] = 2 * unit[..., 0]
+    found[:, 1] = 2 * unit[..., 1]
+    found[:, 2] = np.cos(shared.heading)
+    found[:, 3] = np.sin(shared.heading)
+    found[:, 4] = turn / np.pi
+    found[:, 5] = np.abs(found[:, 4])
+    found[:, 6] = shared.wide / np.pi
+    found[:, 7] = 2 * _distance(unit - unit.mean(axis=1, keepdims=True))
+    found[:, 8] = _distance(unit - unit[:, :1])
+    found[:, 9] = _distance(unit - unit[:, -1:])
+    found[:, 10] = np.cumsum(turn, axis=1) / (4 * np.pi)
+    found[:, 11] = np.minimum(shared.crossings, 3.0) / 3.0
+    return found
 
 
 def _global(shared: _Shared, few: FloatArray, still: NDArray[np.bool_]) -> FloatArray:
     unit = shared.unit - shared.unit.mean(axis=1, keepdims=True)
-    length = _positive(_distance(np.diff(unit, axis=1)).sum(axis=1))
+    length = _positive(_distance(unit[:, 1:] - unit[:, :-1]).sum(axis=1))
     gap = _distance(unit[:, -1] - unit[:, 0])
     inner = shared.turn[:, 1:-1]
     signed, absolute = inner.sum(axis=1), np.abs(inner).sum(axis=1)
     sharp = np.abs(shared.wide)
     along, across, whitened = _principal(unit)
-    columns = [
+    columns = (
         gap / length,
         gap,
         np.log(length),
-        np.ptp(across, axis=1) / _positive(np.ptp(along, axis=1)),
+        _range(across) / _positive(_range(along)),
         signed / (2 * np.pi),
         absolute / (2 * np.pi),
         np.abs(signed) / np.maximum(absolute, RULE.nothing),
@@ -150,13 +149,16 @@ def _global(shared: _Shared, few: FloatArray, still: NDArray[np.bool_]) -> Float
         _spread(whitened),
         _chord_deviation(unit) / length,
         _sign_changes(across, 0.15) / 10,
-        _sign_changes(np.diff(along, axis=1), 0.25) / 10,
+        _sign_changes(along[:, 1:] - along[:, :-1], 0.25) / 10,
         np.abs(along[:, -1] - along[:, 0]) / length,
         _best_closing(unit) / length,
         few,
-        still.astype(float),
-    ]
-    return np.clip(np.stack(columns, axis=1), -6.0, 6.0)
+        still,
+    )
+    found = np.empty((len(unit), len(GLOBAL_FEATURES)))
+    for index, column in enumerate(columns):
+        found[:, index] = column
+    return np.minimum(np.maximum(found, -6.0), 6.0)
 
 
 def page_features(ink: Ink) -> FloatArray:
@@ -213,19 +215,23 @@ def _positive(values: FloatArray) -> FloatArray:
 
 def _heading_and_turn(paths: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Heading at each point (of the step that leaves it; the last repeats) and signed turn, 0 at both ends."""
-    step = np.diff(paths, axis=1)
-    heading = np.arctan2(step[..., 1], step[..., 0])
-    turn = (np.diff(heading, axis=1) + np.pi) % (2 * np.pi) - np.pi
-    return np.concatenate([heading, heading[:, -1:]], axis=1), np.pad(turn, ((0, 0), (1, 1)))
+    step = paths[:, 1:] - paths[:, :-1]
+    heading, turn = np.empty(paths.shape[:2]), np.zeros(paths.shape[:2])
+    np.arctan2(step[..., 1], step[..., 0], out=heading[:, :-1])
+    heading[:, -1] = heading[:, -2]
+    turn[:, 1:-1] = (heading[:, 1:-1] - heading[:, :-2] + np.pi) % (2 * np.pi) - np.pi
+    return heading, turn
 
 
 def _wide_turn(paths: FloatArray, span: int) -> FloatArray:
     """Turn between the chords to `span` points before and after, (B, 64); 0 near the ends."""
-    before = paths[:, span:-span] - paths[:, : -2 * span]
-    after = paths[:, 2 * span :] - paths[:, span:-span]
+    chord = paths[:, span:] - paths[:, :-span]
+    before, after = chord[:, :-span], chord[:, span:]
     cross = before[..., 0] * after[..., 1] - before[..., 1] * after[..., 0]
-    turn = np.arctan2(cross, (before * after).sum(axis=2))
-    return np.pad(turn, ((0, 0), (span, span)))
+    found = np.zeros(paths.shape[:2])
+    dot = before[..., 0] * after[..., 0] + before[..., 1] * after[..., 1]
+    np.arctan2(cross, dot, out=found[:, span:-span])
+    return found
 
 
 _APART = np.abs(np.subtract.outer(np.arange(POINTS - 1), np.arange(POINTS - 1))) >= 2
@@ -238,31 +244,47 @@ def _crossings(unit: FloatArray) -> FloatArray:
     Two steps cross when the ends of each lie on different sides of the other. A point nearer to the
     other's line than rounding counts as on its right, so that a path run back on itself crosses nothing.
     """
-    step = np.diff(unit, axis=1)
-    normal = np.stack([-step[..., 1], step[..., 0]], axis=2)
-    offset = (unit[:, :-1] * normal).sum(axis=2)
-    left = normal @ np.swapaxes(unit, 1, 2) - offset[..., None] > RULE.nothing**2
+    step = unit[:, 1:] - unit[:, :-1]
+    normal = np.empty_like(step)
+    np.negative(step[..., 1], out=normal[..., 0])
+    normal[..., 1] = step[..., 0]
+    offset = (unit[:, :-1] * normal).sum(axis=2) + RULE.nothing**2
+    left = normal @ np.swapaxes(unit, 1, 2) > offset[..., None]
     parted = left[..., 1:] != left[..., :-1]
     hits = parted & np.swapaxes(parted, 1, 2) & _APART
-    return np.pad(hits.sum(axis=2).astype(float), ((0, 0), (0, 1)))
+    found = np.zeros(unit.shape[:2])
+    found[:, :-1] = hits.sum(axis=2)
+    return found
 
 
 def _principal(unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Coordinates along and across the main axis, (B, 64) each, and the radius once both spreads are made 1."""
-    covariance = np.einsum("bni,bnj->bij", unit, unit) / unit.shape[1]
-    spread, axes = np.linalg.eigh(covariance)
-    across, along = (unit @ axes)[..., 0], (unit @ axes)[..., 1]
-    scale = np.sqrt(np.maximum(spread, RULE.nothing))
-    return along, across, np.hypot(across / scale[:, :1], along / scale[:, 1:])
+    x, y = unit[..., 0], unit[..., 1]
+    xx, yy, xy = ((p * q).mean(axis=1) for p, q in ((x, x), (y, y), (x, y)))
+    angle = 0.5 * np.arctan2(2 * xy, xx - yy)
+    cos, sin = np.cos(angle)[:, None], np.sin(angle)[:, None]
+    along, across = cos * x + sin * y, cos * y - sin * x
+    middle, half = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
+    greater = np.sqrt(np.maximum(middle + half, RULE.nothing))[:, None]
+    lesser = np.sqrt(np.maximum(middle - half, RULE.nothing))[:, None]
+    return along, across, np.hypot(across / lesser, along / greater)
+
+
+def _range(values: FloatArray) -> FloatArray:
+    return values.max(axis=1) - values.min(axis=1)
 
 
 def _sign_changes(values: FloatArray, threshold: float) -> FloatArray:
     """How often each row swings from above +h to below −h or back, h a share of its largest magnitude, (B,)."""
     height = np.maximum(threshold * np.abs(values).max(axis=1, keepdims=True), RULE.nothing)
-    side = np.where(values > height, 1, np.where(values < -height, -1, 0))
-    held = np.where(side != 0, np.arange(values.shape[1]), 0)
-    last = np.take_along_axis(side, np.maximum.accumulate(held, axis=1), axis=1)
-    return ((last[:, 1:] * last[:, :-1]) < 0).sum(axis=1).astype(float)
+    above = values > height
+    decided = above | (values < -height)
+    # Where undecided, the last decided side holds: look it up by position in the flattened rows.
+    position = np.arange(values.size).reshape(values.shape)
+    place = np.maximum.accumulate(np.where(decided, position, position[:, :1]), axis=1)
+    known = decided.ravel()[place]
+    held = above.ravel()[place]
+    return ((held[:, 1:] != held[:, :-1]) & known[:, :-1]).sum(axis=1).astype(float)
 
 
 def _peaks(values: FloatArray, threshold: float) -> FloatArray:
@@ -274,14 +296,18 @@ def _peaks(values: FloatArray, threshold: float) -> FloatArray:
 
 def _enclosed(unit: FloatArray) -> FloatArray:
     x, y = unit[..., 0], unit[..., 1]
-    return 0.5 * (x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1)
+    open_ = (x[:, :-1] * y[:, 1:] - y[:, :-1] * x[:, 1:]).sum(axis=1)
+    return 0.5 * (open_ + x[:, -1] * y[:, 0] - y[:, -1] * x[:, 0])
+
+
+_ANGLES = np.arange(RULE.directions) * (np.pi / RULE.directions)
+_DIRECTIONS = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)])
 
 
 def _hull_perimeter(unit: FloatArray) -> FloatArray:
     """Cauchy: the hull's perimeter is the mean width times π."""
-    angle = np.arange(RULE.directions) * np.pi / RULE.directions
-    shadow = unit @ np.stack([np.cos(angle), np.sin(angle)])
-    return np.pi * (shadow.max(axis=1) - shadow.min(axis=1)).mean(axis=1)
+    shadow = np.swapaxes(unit @ _DIRECTIONS, 1, 2)
+    return np.pi * (shadow.max(axis=2) - shadow.min(axis=2)).mean(axis=1)
 
 
 def _spread(radius: FloatArray) -> FloatArray:
