@@ -36,8 +36,8 @@ class SolveRule:
 
 STICK = 1 - 1e-9
 """Share of Coulomb's limit below which a row sticks; rounding alone must not make it."""
-RIDGE = 1e-13
-"""Added to the linear system's diagonal, as a share of its trace: three digits above rounding."""
+SINGULAR = 1e-10
+"""Share of the largest singular value below which one counts as zero."""
 
 
 def solve(rows: list[Row], vel: list[float], inverse: list[float], rule: SolveRule) -> None:
@@ -130,12 +130,11 @@ def _leap(rows: list[Row], vel: list[float], inverse: list[float]) -> None:
             jacobian[k, j : j + 3] = (row.nx, row.ny, row.cb)
             wanted[k] = -row.bias
     # … what each unknown impulse does to the bodies, and the change of all of them that gives every
-    # row its rate. Rows that say the same twice make the system singular: a hair on the diagonal
-    # shares the load among them.
+    # row its rate. Rows that say the same twice, or contradict each other, make the system singular:
+    # least squares of least norm shares the load among them.
     effect = jacobian * np.asarray(inverse)
-    system = jacobian @ effect.T
-    system.flat[:: len(equations) + 1] += RIDGE * float(np.trace(system))
-    change = np.linalg.solve(system, wanted - jacobian @ np.asarray(vel))
+    missing = wanted - jacobian @ np.asarray(vel)
+    change = np.linalg.lstsq(jacobian @ effect.T, missing, rcond=SINGULAR)[0]
     share = 1.0
     for (row, along), step in zip(equations, change.tolist(), strict=True):
         if not along and row.low == 0.0 and row.pn + step < 0.0:

@@ -35,6 +35,8 @@ class StepRule:
     """m/s: a wire's rate below this is none: what the solver leaves over."""
     seep: float = 1e-7
     """m/s: the same of a contact, which has no long swings to keep exact: half a nanometre a step."""
+    rounding: float = 1e-12
+    """Share of the kinetic energy by which rounding may raise it in an impact."""
     exact: float = 1e-13
     """m: a wire's length is kept to this."""
     closing: int = 8
@@ -211,12 +213,40 @@ def _strike(
         return hits, 0.0
     before = _kinetic(world, vel)
     carried = [(row.pn, row.pt) for row in closed]
-    for row in closed:
-        row.pn = row.pt = 0.0
-    solve(closed, vel, inverse, SOLVE)
+    approach = vel[:]
+    _struck(closed, vel, inverse)
+    if _kinetic(world, vel) > before * (1 + RULE.rounding) and any(row.bias for row in closed):
+        # Newton's restitution and friction together can create energy (Kane and Levinson 1985); the
+        # dead impact never does. As much restitution as the energy allows:
+        lively = vel[:]
+        vel[:] = approach
+        for row in closed:
+            row.bias = 0.0
+        _struck(closed, vel, inverse)
+        share = _share(world, vel, lively, before)
+        vel[:] = [dead + share * (live - dead) for dead, live in zip(vel, lively, strict=True)]
     for row, (pn, pt) in zip(closed, carried, strict=True):
         row.pn, row.pt = pn, pt
     return hits, before - _kinetic(world, vel)
+
+
+def _struck(closed: list[Row], vel: list[float], inverse: list[float]) -> None:
+    for row in closed:
+        row.pn = row.pt = 0.0
+    solve(closed, vel, inverse, SOLVE)
+
+
+def _share(world: World, dead: list[float], lively: list[float], most: float) -> float:
+    """How far from the dead towards the lively velocities the kinetic energy stays below `most`, 0 to 1."""
+    start, end = _kinetic(world, dead), _kinetic(world, lively)
+    middle = _kinetic(world, [0.5 * (a + b) for a, b in zip(dead, lively, strict=True)])
+    # Along the way it is a parabola: start + slope s + bend s².
+    bend = 2 * (start + end) - 4 * middle
+    slope = end - start - bend
+    room = max(most - start, 0.0)
+    root = slope * slope + 4 * bend * room
+    below = slope + sqrt(max(root, 0.0))
+    return min(1.0, 2 * room / below) if below > 0 else 0.0
 
 
 def _slow(world: World, row: Row, usual: float) -> float:

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import cos, pi, sin, sqrt, tan
 
 import numpy as np
 import pytest
-from scipy.special import ellipj, ellipk
-
-from physics.engine import simulate
-from physics.formula.program import STATE, Program, constant
-from physics.scene import Anchor, Force, Material, Scene, SpringLink
-from physics.trajectory import Trajectory
-from tests.physics.scenes import (
+from physics_scenes import (
     G,
     box,
     disc,
@@ -23,6 +18,12 @@ from tests.physics.scenes import (
     pendulum,
     supported,
 )
+from scipy.special import ellipj, ellipk
+
+from physics.engine import simulate
+from physics.formula.program import STATE, Program, constant
+from physics.scene import Anchor, Force, Material, Scene, SpringLink
+from physics.trajectory import Trajectory
 
 
 def mechanical(trajectory: Trajectory) -> np.ndarray:
@@ -63,7 +64,9 @@ def test_a_box_slides_down_a_rough_incline_with_g_sin_theta_minus_mu_cos_theta()
 def test_a_rough_incline_holds_a_box_without_creep_where_mu_exceeds_tan_theta() -> None:
     angle = pi / 6
     slope = Material(friction=1.01 * tan(angle))
-    place = np.array([0.0, 6 * sin(angle)]) + (cos(angle), -sin(angle)) + 0.2 * np.array([sin(angle), cos(angle)])
+    place = (
+        np.array([0.0, 6 * sin(angle)]) + (cos(angle), -sin(angle)) + 0.2 * np.array([sin(angle), cos(angle)])
+    )
     level = box("box", place[0], place[1], 0.6, 0.4)
     tilted = type(level)(level.label, level.shape, level.position, level.mass, level.inertia, -angle)
     moved = simulate(Scene((incline(angle, material=slope), tilted)), 5)
@@ -148,7 +151,7 @@ def test_a_ball_bounces_to_e_squared_of_its_height_each_time() -> None:
     fall = sqrt(2 / G)
     assert hits[0] == pytest.approx(fall, abs=1e-9)
     assert hits[1] == pytest.approx(fall * (1 + 2 * e), abs=1e-8)
-    for n, (start, end) in enumerate(zip(hits, hits[1:4], strict=False), start=1):
+    for n, (start, end) in enumerate(pairwise(hits[:4]), start=1):
         top = height[(moved.times > start) & (moved.times < end)].max()
         assert top == pytest.approx(e ** (2 * n), abs=2e-5)
 

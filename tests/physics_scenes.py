@@ -29,7 +29,7 @@ def disc(
     radius: float = 0.25,
     mass: float = 1.0,
     velocity: tuple[float, float, float] = (0.0, 0.0, 0.0),
-    material: Material = Material(),  # noqa: B008
+    material: Material = Material(),
     fixed: bool = False,
 ) -> Body:
     inertia = disc_inertia(mass, radius)
@@ -44,20 +44,22 @@ def box(
     height: float,
     mass: float = 1.0,
     velocity: tuple[float, float, float] = (0.0, 0.0, 0.0),
-    material: Material = Material(),  # noqa: B008
+    material: Material = Material(),
     fixed: bool = False,
 ) -> Body:
     w, h = width / 2, height / 2
     corners = ((-w, -h), (w, -h), (w, h), (-w, h))
-    return Body(label, Block(corners), (x, y), mass, block_inertia(mass, corners), 0.0, fixed, velocity, material)
+    return Body(
+        label, Block(corners), (x, y), mass, block_inertia(mass, corners), 0.0, fixed, velocity, material
+    )
 
 
-def floor(material: Material = Material()) -> Body:  # noqa: B008
+def floor(material: Material = Material()) -> Body:
     """Its upper side is y = 0."""
     return box("floor", 0.0, -0.5, 40.0, 1.0, fixed=True, material=material)
 
 
-def incline(angle: float, length: float = 6.0, material: Material = Material()) -> Body:  # noqa: B008
+def incline(angle: float, length: float = 6.0, material: Material = Material()) -> Body:
     """Foot on the right at (length cos θ, 0), top at (0, length sin θ)."""
     corners = ((0.0, 0.0), (length * cos(angle), 0.0), (0.0, length * sin(angle)))
     cx, cy = sum(x for x, _ in corners) / 3, sum(y for _, y in corners) / 3
