@@ -20,8 +20,7 @@ from math import cos, exp, sin
 import numpy as np
 
 from data_gen import ideals
-from data_gen.glyphs import alphabet
-from sketch.geometry import closure, path_length
+from data_gen.glyphs.lone import lone_strokes, pick
 from sketch.ink import FloatArray
 from sketch.page import STROKE_KINDS, StrokeKind
 
@@ -54,8 +53,6 @@ class FamilyRule:
     """Share of mathematics that are letters joined up to a word."""
     star: float = 0.06
     """Share of mathematics that are five-pointed stars in one stroke."""
-    straight: float = 0.93
-    """A stroke of a letter whose chord is more of its length than this is a wire when alone."""
 
 
 RULE = FamilyRule()
@@ -98,29 +95,29 @@ def spring(rng: np.random.Generator) -> FloatArray:
     angle = 0.25 * z[0] if u[2] < 0.6 else 2 * np.pi * u[3]
     if u[4] < RULE.zigzag:
         legs = 5 + int(9 * u[5] ** 2.2)
-        width = float(np.exp(np.log(0.14) + (np.log(0.95) - np.log(0.14)) * u[6])) * (6 / legs) ** 0.4
+        width = 0.14 * (0.95 / 0.14) ** u[6] * (6 / legs) ** 0.4
         spacing = np.exp(0.18 * rng.standard_normal(legs))
         # Saw teeth: every other leg nearly upright, or even leaning back.
         spacing[int(2 * u[7]) :: 2] *= 1.0 if u[8] < 0.45 else 0.15 + 0.7 * u[9]
         heights = np.exp(0.22 * rng.standard_normal(legs - 1))
-        peaks = ideals.zigzag((0, 0), (1, 0), legs, width, lead, spacing.tolist(), heights.tolist())
+        peaks = ideals.zigzag((0, 0), (1, 0), legs, width, lead, spacing, heights)
         if lead == 0.0:
             # Without leads the first and last legs start from the trough, not from the axis.
-            peaks[[0, -1], 1] -= np.array([1, 1 if legs % 2 == 0 else -1]) * width / 2
+            peaks[0, 1] -= width / 2
+            peaks[-1, 1] -= width / 2 if legs % 2 == 0 else -width / 2
         path = _rounded_peaks(peaks) if u[1] > 0.85 and legs >= 7 else peaks
     else:
         loops = 3 + int(6 * u[5] ** 1.5)
-        width = float(np.exp(np.log(0.12) + (np.log(0.7) - np.log(0.12)) * u[6]))
+        width = 0.12 * (0.7 / 0.12) ** u[6]
         path = ideals.coil((0, 0), (1, 0), loops, width, lead, 0.25 + 0.45 * u[7])
-        path = path * np.array([1.0, 1.0 if u[8] < 0.5 else -1.0])
-        path = _uneven(path, rng, 0.12)
+        path = _uneven(path if u[8] < 0.5 else path * (1.0, -1.0), rng, 0.12)
     return _turned(path if u[9] < 0.7 else path[::-1], angle)
 
 
 def wire(rng: np.random.Generator) -> FloatArray:
     """Nearly straight strokes at any angle: bent a little, sometimes with a run-back at the end."""
     u, z = rng.random(5).tolist(), rng.standard_normal(3).tolist()
-    along = np.linspace(0.0, 1.0, 24)
+    along = np.arange(24) / 23
     sag = 0.03 * z[0] * (2.0 if u[0] < 0.12 else 1.0)
     skew = 0.02 * z[1]
     path = np.column_stack([along, sag * 4 * along * (1 - along) + skew * np.sin(2 * np.pi * along)])
@@ -133,7 +130,7 @@ def wire(rng: np.random.Generator) -> FloatArray:
 
 def arrow(rng: np.random.Generator) -> FloatArray:
     """Arrows in one stroke: straight or bent shaft, head open or closed, its barbs uneven."""
-    u, z = rng.random(8), rng.standard_normal(10)
+    u, z = rng.random(8).tolist(), rng.standard_normal(10)
     head = (0.1 + 0.5 * u[0]) * np.exp(0.2 * z[:2])
     opening = np.radians(14 + 44 * u[1]) + 0.15 * z[2:4]
     tip = np.array([1.0, 0.0])
@@ -142,7 +139,7 @@ def arrow(rng: np.random.Generator) -> FloatArray:
     # Many never quite return to the tip between the barbs, or overshoot it.
     again = tip + 0.22 * head.mean() * z[4:6]
     barbs = [first, second, again] if u[2] < 0.15 else [first, again, second]
-    shaft = np.linspace(0.0, 1.0, 16)
+    shaft = np.arange(16) / 15
     bend = 0.03 * z[6] if u[3] < 0.7 else 0.15 * z[6]
     bowed = np.column_stack([shaft, bend * 4 * shaft * (1 - shaft)])
     if u[4] < 0.06:
@@ -181,14 +178,21 @@ def scribble(rng: np.random.Generator) -> FloatArray:
 
 def lasso(rng: np.random.Generator) -> FloatArray:
     """A loose loop thrown around things: closed or nearly, lobed, longer than high."""
-    u = rng.random(4)
-    angle = np.linspace(0.0, 2 * np.pi * (0.93 + 0.17 * u[0]), 72)
-    order = np.arange(2, 6)
-    lobes = rng.standard_normal((2, len(order))) * 0.16 / order**0.8
-    radius = 1.0 + lobes[0] @ np.cos(np.outer(order, angle)) + lobes[1] @ np.sin(np.outer(order, angle))
-    path = 0.5 * np.maximum(radius, 0.3)[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
-    stretched = path * np.array([1.0, float(np.exp(-0.9 * u[1]))])
-    return _directed(_turned(stretched, 0.2 * float(rng.standard_normal())), u[2])
+    u, z = rng.random(4).tolist(), rng.standard_normal(9)
+    count = int(len(_ROUND) * (0.93 + 0.17 * u[0]) / _MOST_ROUND)
+    radius = np.maximum(1.0 + (_LOBES * z[:8]) @ _HARMONICS[:, :count], 0.3)
+    path = radius[:, None] * _ROUND[:count] * (0.5, 0.5 * exp(-0.9 * u[1]))
+    return _directed(_turned(path, 0.2 * float(z[8])), u[2])
+
+
+_MOST_ROUND = 1.1
+"""Turns of the longest lasso: it overlaps itself by a tenth."""
+_AROUND = np.arange(80) * (2 * np.pi * _MOST_ROUND / 80)
+_ROUND = np.column_stack([np.cos(_AROUND), np.sin(_AROUND)])
+_ORDERS = np.arange(2, 6)
+_HARMONICS = np.concatenate([np.cos(np.outer(_ORDERS, _AROUND)), np.sin(np.outer(_ORDERS, _AROUND))])
+_LOBES = np.tile(0.16 / _ORDERS**0.8, 2)
+"""Standard deviations of a lasso's lobes: two to five of them, the more the flatter."""
 
 
 def mathematics(rng: np.random.Generator) -> FloatArray:
@@ -196,19 +200,21 @@ def mathematics(rng: np.random.Generator) -> FloatArray:
     u = float(rng.random())
     if u < RULE.word:
         path = _word(rng)
+    elif u < RULE.word + RULE.star:
+        path = _star(rng)
     else:
-        path = _star(rng) if u < RULE.word + RULE.star else _pick(_lone_strokes(_pool(u)), rng)
-    size = float(np.max(path.max(axis=0) - path.min(axis=0)))
-    z = rng.standard_normal(6)
-    scaled = (path - path.mean(axis=0)) / size * np.exp(0.5 * 0.22 * z[0] * np.array([1.0, -1.0]))
-    reach = 0.02 * rng.standard_normal((2, 2))
-    ramp = np.linspace(0.0, 1.0, len(scaled))[:, None]
-    return _turned(scaled + (1 - ramp) ** 3 * reach[0] + ramp**3 * reach[1], 0.13 * z[1])
+        path = pick(lone_strokes("marks" if u < RULE.word + RULE.star + RULE.mark else "symbols"), rng)
+    z = rng.standard_normal(6).tolist()
+    wide = exp(0.11 * z[0])
+    # Both ends of a letter stray by themselves: cubic weights fade within the first and last third.
+    ramp = np.arange(len(path))[:, None] / (len(path) - 1)
+    strayed = path * (wide, 1 / wide) + (1 - ramp) ** 3 * (0.02 * z[2], 0.02 * z[3])
+    return _turned(strayed + ramp**3 * (0.02 * z[4], 0.02 * z[5]), 0.13 * z[1])
 
 
 def letter_part(rng: np.random.Generator) -> FloatArray:
     """Any stroke of any symbol of mathematics, bars, rings and dots included: what stands in a formula."""
-    return _turned(_pick(_lone_strokes("all"), rng) / 10, 0.1 * float(rng.standard_normal()))
+    return _turned(pick(lone_strokes("all"), rng), 0.1 * float(rng.standard_normal()))
 
 
 FAMILIES: dict[StrokeKind, Family] = {
@@ -224,63 +230,12 @@ FAMILIES: dict[StrokeKind, Family] = {
 }
 assert tuple(FAMILIES) == STROKE_KINDS
 
-_POOLS: dict[str, list[list[FloatArray]]] = {}
-
-
-def _lone_strokes(pool: str) -> list[list[FloatArray]]:
-    """For each symbol of a pool its strokes that are mathematics even without company."""
-    if pool not in _POOLS:
-        names = alphabet.marks() if pool == "marks" else alphabet.symbols()
-        if pool == "round letters":
-            names = tuple("abcdeghloqsz")
-        found = [
-            [
-                stroke
-                for variant in range(alphabet.variants(name))
-                for stroke in alphabet.strokes(name, variant)
-                if pool == "all" or not _component_like(name, stroke)
-            ]
-            for name in names
-        ]
-        _POOLS[pool] = [
-            strokes
-            for name, strokes in zip(names, found, strict=True)
-            if strokes
-            for _ in range(_weight(name))
-        ]
-    return _POOLS[pool]
-
-
-def _weight(name: str) -> int:
-    """How often a symbol is drawn against the others: digits and braces are met most, and are nearest to other kinds."""
-    return 5 if name.startswith("brace") else 3 if name.isdigit() else 1
-
-
-RING_OR_TRIANGLE = frozenset({"0", "o", "O", r"\Delta", ".", r"\cdot", r"\ldots"})
-"""Symbols that are a circle, a polygon or a tap when they stand alone."""
-
-
-def _component_like(name: str, stroke: FloatArray) -> bool:
-    small = path_length(stroke) < 2.5
-    ring = name in {r"\theta", r"\phi", "Q"} and closure(stroke) < 0.1
-    return name in RING_OR_TRIANGLE or small or ring or closure(stroke) > RULE.straight
-
-
-def _pool(u: float) -> str:
-    return "marks" if u < RULE.word + RULE.star + RULE.mark else "symbols"
-
 
 def _star(rng: np.random.Generator) -> FloatArray:
     """A pentagram begun at any of its points, its points uneven."""
     u, z = rng.random(2), rng.standard_normal((6, 2))
     around = 2 * np.pi * (int(5 * u[0]) / 5 + 0.4 * np.arange(6)) - np.pi / 2
-    return _directed(np.column_stack([np.cos(around), np.sin(around)]) + 0.1 * z, u[1])
-
-
-def _pick(pool: list[list[FloatArray]], rng: np.random.Generator) -> FloatArray:
-    one, other = rng.random(2).tolist()
-    ways = pool[int(one * len(pool))]
-    return ways[int(other * len(ways))]
+    return _directed(0.5 * np.column_stack([np.cos(around), np.sin(around)]) + 0.05 * z, u[1])
 
 
 def _word(rng: np.random.Generator) -> FloatArray:
@@ -289,11 +244,11 @@ def _word(rng: np.random.Generator) -> FloatArray:
     pieces: list[FloatArray] = []
     x = 0.0
     for _ in range(count):
-        stroke = _pick(_lone_strokes("round letters"), rng)
-        low, high = stroke.min(axis=0), stroke.max(axis=0)
-        pieces.append(stroke + np.array([x - low[0], 0.0]))
-        x += float(high[0] - low[0]) + 1.5
-    return np.concatenate(pieces)
+        stroke = pick(lone_strokes("round letters"), rng)
+        low, high = float(stroke[:, 0].min()), float(stroke[:, 0].max())
+        pieces.append(np.add(stroke, (x - low, 0.0)))
+        x += high - low + 0.15
+    return (np.concatenate(pieces) - (x / 2, 0.0)) / x
 
 
 def _sparse(path: FloatArray, rng: np.random.Generator) -> FloatArray:
@@ -304,7 +259,7 @@ def _sparse(path: FloatArray, rng: np.random.Generator) -> FloatArray:
     first = 0.04 + 0.26 * float(rng.random())
     gaps = np.concatenate([[first], (1 - first) * gaps / gaps.sum()])
     wanted = np.minimum(np.concatenate([[0.0], np.cumsum(gaps)]), 1.0)
-    place = np.linspace(0.0, 1.0, len(path))
+    place = np.arange(len(path)) / (len(path) - 1)
     return np.column_stack([np.interp(wanted, place, path[:, axis]) for axis in (0, 1)])
 
 
@@ -379,16 +334,17 @@ def _rounded_peaks(peaks: FloatArray) -> FloatArray:
 
 def _uneven(path: FloatArray, rng: np.random.Generator, amount: float) -> FloatArray:
     """Loops of varying height and pitch: a slow random swell across and along the axis."""
-    x = np.linspace(0.0, 1.0, len(path))
-    order = np.arange(1, 5)
-    waves = rng.standard_normal((2, len(order))) @ np.sin(np.pi * np.outer(order, x))
-    swell = np.exp(amount * waves[0])
-    return np.column_stack([path[:, 0] + 0.15 * amount * waves[1], path[:, 1] * swell])
+    x = np.arange(len(path)) * (np.pi / (len(path) - 1))
+    waves = rng.standard_normal((2, 4)) @ np.sin(np.outer(np.arange(1, 5), x))
+    uneven = path.copy()
+    uneven[:, 0] += 0.15 * amount * waves[1]
+    uneven[:, 1] *= np.exp(amount * waves[0])
+    return uneven
 
 
 def _directed(path: FloatArray, u: float) -> FloatArray:
     """Mirrored half of the time, so that both drawing senses occur."""
-    return path if u < 0.5 else path * np.array([-1.0, 1.0])
+    return path if u < 0.5 else path * (-1.0, 1.0)
 
 
 def _turned(path: FloatArray, angle: float) -> FloatArray:

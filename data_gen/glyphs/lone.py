@@ -1,0 +1,77 @@
+"""Single strokes of letters and marks: which of them are still mathematics when they stand alone.
+
+A bar, a ring or a triangle alone is a wire, a circle or a polygon, whatever letter it was taken
+from. Frame: y down; strokes about one unit large about their middle, those of `all` a tenth of the
+authored size (a capital is one unit high).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from typing import Literal
+
+import numpy as np
+
+from data_gen.glyphs import alphabet
+from sketch.geometry import closure, path_length
+from sketch.ink import FloatArray
+
+Pool = Literal["symbols", "marks", "round letters", "all"]
+"""All symbols or all other marks, as far as they are mathematics when alone; letters without rows of legs,
+which words are made of; and every stroke of every symbol, for formulas."""
+
+STRAIGHT = 0.93
+"""A stroke whose chord is more of its length than this is a wire when alone."""
+SMALL = 2.5
+"""A stroke shorter than this (a capital is 10 high) is a dot or a dash when alone."""
+RING = 0.1
+"""The ring of θ, φ or Q closes within this fraction of its length, and is a circle when alone."""
+
+OTHERS = frozenset({"0", "o", "O", r"\Delta", ".", r"\cdot", r"\ldots"})
+"""Symbols that are a circle, a polygon or a tap when they stand alone."""
+
+Ways = tuple[tuple[FloatArray, ...], ...]
+"""For each entry of a pool the strokes that it can be."""
+
+
+@cache
+def lone_strokes(pool: Pool) -> Ways:
+    """The strokes of a pool, symbol by symbol; frequent symbols stand in it several times."""
+    names = {
+        "symbols": alphabet.symbols(),
+        "marks": alphabet.marks(),
+        "round letters": tuple("abcdeghloqsz"),
+        "all": alphabet.symbols(),
+    }[pool]
+    found = [(_weight(name), _strokes(name, pool)) for name in names]
+    return tuple(strokes for weight, strokes in found if strokes for _ in range(weight))
+
+
+def pick(pool: Ways, rng: np.random.Generator) -> FloatArray:
+    """One stroke: a symbol at random, then one of its strokes at random."""
+    one, other = rng.random(2).tolist()
+    ways = pool[int(one * len(pool))]
+    return ways[int(other * len(ways))]
+
+
+def _weight(name: str) -> int:
+    """How often a symbol is drawn against the others: digits and braces are met most, and are nearest to other kinds."""
+    return 5 if name.startswith("brace") else 3 if name.isdigit() else 1
+
+
+def _strokes(name: str, pool: Pool) -> tuple[FloatArray, ...]:
+    every = [
+        stroke for variant in range(alphabet.variants(name)) for stroke in alphabet.strokes(name, variant)
+    ]
+    if pool == "all":
+        return tuple(stroke / 10 for stroke in every)
+    kept: Sequence[FloatArray] = [stroke for stroke in every if not _component_like(name, stroke)]
+    if pool == "round letters":
+        return tuple(stroke / 10 for stroke in kept)
+    return tuple((stroke - stroke.mean(axis=0)) / np.ptp(stroke, axis=0).max() for stroke in kept)
+
+
+def _component_like(name: str, stroke: FloatArray) -> bool:
+    ring = name in {r"\theta", r"\phi", "Q"} and closure(stroke) < RING
+    return name in OTHERS or path_length(stroke) < SMALL or ring or closure(stroke) > STRAIGHT
