@@ -152,10 +152,11 @@ def _travel(
     pending = np.minimum(
         ended, (np.searchsorted(owner, np.arange(len(samples)), side="right") - 1)[stroke_of]
     )
-    flat = meant.reshape(-1, 2)
+    # Points as complex numbers: one gather serves both coordinates.
+    flat = np.ascontiguousarray(meant).view(np.complex128).ravel()
     row0 = owner * meant.shape[1]
     origin = flat[row0 + from_]
-    base = np.where((ended > pending)[:, None], flat[row0 + to][pending], origin[pending])
+    reached = np.where(ended > pending, flat[row0 + to][pending], origin[pending])
     # The strokelets under way at each sample, as flat pairs.
     lengths = np.maximum(closing - opening, 0)
     strokelet = np.repeat(np.arange(len(owner)), lengths)
@@ -165,10 +166,12 @@ def _travel(
     place = from_[strokelet] + share * (to - from_)[strokelet]
     low = np.minimum(place.astype(int), meant.shape[1] - 2)
     row = row0[strokelet] + low
-    moved = flat[row] + (place - low)[:, None] * (flat[row + 1] - flat[row]) - origin[strokelet]
-    for axis in (0, 1):
-        base[:, axis] += np.bincount(sample, weights=moved[:, axis], minlength=len(clock))
-    return base, clock, offsets
+    here = flat[row]
+    moved = here + (place - low) * (flat[row + 1] - here) - origin[strokelet]
+    points = reached.view(np.float64).reshape(-1, 2)
+    points[:, 0] += np.bincount(sample, weights=moved.real, minlength=len(clock))
+    points[:, 1] += np.bincount(sample, weights=moved.imag, minlength=len(clock))
+    return points, clock, offsets
 
 
 def _strokelets(meant: FloatArray) -> tuple[Indices, Indices, Indices]:

@@ -42,9 +42,9 @@ def resample(points: FloatArray, count: int) -> FloatArray:
     if travelled[-1] == 0:
         return np.repeat(points[:1], count, axis=0)
     wanted = np.arange(count) * (travelled[-1] / (count - 1))
-    even = np.empty((count, 2))
-    even[:, 0] = np.interp(wanted, travelled, points[:, 0])
-    even[:, 1] = np.interp(wanted, travelled, points[:, 1])
+    # As complex numbers both coordinates are interpolated in one pass.
+    plane = np.ascontiguousarray(points, dtype=np.float64).view(np.complex128)[:, 0]
+    even = np.interp(wanted, travelled, plane).view(np.float64).reshape(count, 2)
     even[-1] = points[-1]
     return even
 
