@@ -39,6 +39,8 @@ class PageRule:
     """Share of pages whose mathematics comes after the taps rather than before them."""
     steady: float = 120.0
     """A shape's waver grows as its size up to here (page units), and as the root of it beyond."""
+    late: float = 12.0
+    """A slow device misses at most about twice this length (page units) of a shape's outline."""
     lift: tuple[float, float] = (0.12, 0.4)
     """Pause between two strokes of one thing, s."""
     thought: tuple[float, float] = (0.5, 2.0)
@@ -105,14 +107,15 @@ def meaning(meant: Problem, places: Sequence[Point | None] = ()) -> Sketch:
 
 def _steadied(writer: Writer, component: Component) -> Writer:
     """The writer at a shape of this size. The pen strays in proportion to a stroke; on large and on thin
-    shapes the eye corrects it."""
+    shapes the eye corrects it, and a device wakes up after a time, not after a share of the drawing."""
     low, high = bounding_box(outline(component.shape))
     width, height = (high - low).tolist()
     size = float(np.hypot(width, height))
     waver = min(1.0, (RULE.steady / size) ** 0.5)
     if isinstance(component.shape, Circle | Polygon):
         waver = min(waver, (2 * width * height) ** 0.5 / size)  # 1 for a square
-    return replace(writer, wobble=waver * writer.wobble)
+    late = min(writer.late, RULE.late / max(size, 1.0))
+    return replace(writer, wobble=waver * writer.wobble, late=late)
 
 
 @dataclass(frozen=True, slots=True)

@@ -69,6 +69,11 @@ class Rules:
     """Factor on the distance from the best triangle, quadrilateral, pentagon, hexagon: more sides
     follow any outline more closely, a circle's distance falls as 1 / sides²; these leave a third of
     that fall to be earned."""
+    plank: float = 0.12
+    """Smaller over larger axis of an outline below which a triangle costs `splinter` times as much: floors,
+    shelves and beams are drawn often, splinters of less than 7° never, and a hand's waver is then no
+    longer small beside the difference."""
+    splinter: float = 1.35
     hand: float = 0.005
     """Distance, rms, that a careful hand wavers by: no side is earned by following it."""
     polygonal: Bound = Bound(0.025, 0.005)
@@ -191,7 +196,10 @@ def best_polygon(outline: Ring, rules: Rules = RULES) -> tuple[list[int], float]
     indices of its points, the first repeated as the last; and its rms distance."""
     legs = best_legs(outline.points, 2 + len(rules.side_costs))
     distances = legs.rms[2:]
-    sides = 3 + int(np.argmin((distances + rules.hand) * np.array(rules.side_costs)))
+    costs = np.array(rules.side_costs)
+    if outline.aspect < rules.plank:
+        costs[0] *= rules.splinter
+    sides = 3 + int(np.argmin((distances + rules.hand) * costs))
     return legs.breaks(sides), float(distances[sides - 3])
 
 
