@@ -6,12 +6,15 @@ from collections import Counter
 
 import numpy as np
 
-from physics.outcome import Outcome
+from physics.outcome import Outcome, touching
 from physics.pipeline import Motion
 from sketch.ink import FloatArray
 
 STEADY = 0.02
 """Speed is called steady in its growth when it leaves a straight line by at most this share of its range."""
+
+CARRIED = 0.2
+"""Seconds of contact before a fall that are worth telling."""
 
 
 def happened(motion: Motion, outcome: Outcome) -> list[str]:
@@ -27,7 +30,7 @@ def happened(motion: Motion, outcome: Outcome) -> list[str]:
         path, speed = trajectory.path(label), trajectory.speed(label)
         way = float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
         told.append(
-            f"{label}, a {kind}, {fate}: {way:.2f} m of way in {span:.2f} s, "
+            f"{label}, a {kind}, {_rolling_first(motion, label) if fate == 'falls' else ''}{fate}: {way:.2f} m of way in {span:.2f} s, "
             f"{float(speed[-1]):.2f} m/s at the end.{_steadily(trajectory.times, speed)}"
         )
     told += _impacts(motion)
@@ -35,6 +38,15 @@ def happened(motion: Motion, outcome: Outcome) -> list[str]:
         f"At {event.time:.2f} s {event.message}." for event in trajectory.events if event.kind == "break"
     ]
     return [*told, *motion.notices]
+
+
+def _rolling_first(motion: Motion, label: str) -> str:
+    """How long a body that ends up falling was carried first: off the end of an incline, say."""
+    touched, times = touching(motion, label), motion.trajectory.times
+    left = int(np.argmin(touched)) if not touched.all() else len(touched)
+    if touched[left:].any() or left == len(touched) or times[left] < CARRIED:
+        return ""
+    return f"rolls until {times[left]:.2f} s, then "
 
 
 def _steadily(times: FloatArray, speed: FloatArray) -> str:

@@ -22,6 +22,22 @@ def known(option: str, values: Iterable[str], names: Collection[Name]) -> tuple[
     return tuple(chosen)
 
 
+def rivals(values: Iterable[str]) -> tuple[str, ...]:
+    """Names of recognizers, ours or "module:Class" for somebody's own, each once. Raises typer.BadParameter
+    for one that cannot be had."""
+    from recognizer.roster import ROSTER, recognizer
+
+    for value in values:
+        if ":" in value:
+            try:
+                recognizer(value)
+            except ValueError as error:
+                raise typer.BadParameter(f"--recognizer {error}") from None
+        else:
+            known("--recognizer", [value], (*ROSTER, "module:Class (your own)"))
+    return tuple(dict.fromkeys(values))
+
+
 def there(paths: Iterable[Path]) -> list[Path]:
     """The paths. Raises FileNotFoundError or IsADirectoryError for one that is not a file to read."""
     checked = list(paths)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from physics.pipeline import Motion
 from physics.scene import Body, Disc
@@ -113,12 +114,18 @@ def _bounces(motion: Motion, label: str) -> int:
     return count
 
 
-def _contact(motion: Motion, label: str) -> float:
-    """Share of the frames in which something touches the body from outside."""
+def touching(motion: Motion, label: str) -> NDArray[np.bool_]:
+    """In which frames something touches the body from outside, (T,)."""
     trajectory = motion.trajectory
     touched = np.zeros(len(trajectory.times), dtype=bool)
     given = {support.name for support in motion.scene.supports if support.body == label}
     for force in trajectory.forces:
         if force.body == label and (force.name.startswith("contact with") or force.name in given):
             touched |= np.hypot(force.values[:, 0], force.values[:, 1]) > 0
+    return touched
+
+
+def _contact(motion: Motion, label: str) -> float:
+    """Share of the frames in which something touches the body from outside."""
+    touched = touching(motion, label)
     return float(touched.mean()) if len(touched) else 0.0

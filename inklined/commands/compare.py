@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from inklined.options import known, there
+from inklined.options import rivals, there
 
 if TYPE_CHECKING:
     from evaluation.contest import Contest
@@ -55,7 +55,7 @@ def compare(
     from inklined.terminal import out, progress
     from recognizer.roster import ROSTER
 
-    names = known("--recognizer", recognizer or (), ROSTER) or tuple(ROSTER)
+    names = rivals(recognizer or ()) or tuple(ROSTER)
     if not ink and not strokes and not pages:
         raise typer.BadParameter("--strokes 0 --pages 0 leaves nothing to compare; give one of them a number")
     files = there(ink or ())
@@ -76,15 +76,18 @@ def compare(
         )
         html = report_of(contest, _as_typed(), workers, tell) if place else ""
 
-    _print(contest)
+    # Files first: a reader of the terminal that hangs up must not cost the figures.
     if json_file:
         from evaluation.summary import contest_summary
 
         figures = json.dumps(contest_summary(contest), indent=1, ensure_ascii=False)
         write_text(json_file, figures + "\n", files)
-        out.print(f"Figures: {json_file}", markup=False)
     if place:
         write_text(place, html, files)
+    _print(contest)
+    if json_file:
+        out.print(f"Figures: {json_file}", markup=False)
+    if place:
         out.print(f"Report: {place}", markup=False)
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from inklined.options import known, there
+from inklined.options import rivals, there
 
 if TYPE_CHECKING:
     from sketch.page import Sketch
@@ -48,9 +48,8 @@ def analyze(
     import json
 
     from inklined.output import check_writable, write_text
-    from recognizer.roster import ROSTER
 
-    known("--recognizer", [recognizer], ROSTER)
+    rivals([recognizer])
     there([file])
     to_terminal = json_file is not None and str(json_file) == "-"
     for target in (svg, out, None if to_terminal else json_file):
@@ -94,9 +93,8 @@ def simulate(
 ) -> None:
     """Correct a page, set it in motion and say what happens."""
     from inklined.output import check_writable, write_bytes, write_text
-    from recognizer.roster import ROSTER
 
-    known("--recognizer", [recognizer] if recognizer else (), ROSTER)
+    rivals([recognizer] if recognizer else ())
     there([file])
     for target in (svg, gif):
         if target:
