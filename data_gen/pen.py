@@ -79,9 +79,9 @@ class Batch:
 
 
 def strokes_from(batch: Batch) -> list[Stroke]:
-    """The batch as strokes."""
+    """The batch as strokes, which own their points: a kept stroke does not keep its batch."""
     return [
-        Stroke(batch.points[a:b], batch.times[a:b], batch.pressure[a:b])
+        Stroke.trusted(batch.points[a:b].copy(), batch.times[a:b].copy(), batch.pressure[a:b].copy())
         for a, b in zip(batch.offsets[:-1].tolist(), batch.offsets[1:].tolist(), strict=True)
     ]
 
@@ -97,8 +97,7 @@ def draw_batch(
     hand = compose(field(0.6 * habit["wobble"]), wobble(habit["wobble"]), bow(0.8 * habit["wobble"]))
     normals = np.array([rng.standard_normal(hand.draws + 8) for rng in rngs])
     hooked = [_hooked(path, share, rng) for path, share, rng in zip(paths, habit["hooks"], rngs, strict=True)]
-    even = np.array([resample(path, RULE.path_points) for path in hooked])
-    even = _late(even, habit["late"])
+    even = _late(np.array([resample(path, RULE.path_points) for path in hooked]), habit["late"])
     meant = hand.apply(even, normals[:, : hand.draws])
     points, times, offsets = _travel(meant, habit, normals[:, hand.draws :])
     points = _shaken(points, times, offsets, meant, habit, normals[:, hand.draws :], rngs)

@@ -6,6 +6,7 @@ Frame: page units, y down.
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -82,10 +83,10 @@ def stream(
         )
     for first in range(start, start + count, RULE.batch):
         indices = range(first, min(first + RULE.batch, start + count))
-        yield from _batch(seed, indices, np.cumsum(shares))
+        yield from _batch(seed, indices, np.cumsum(shares).tolist())
 
 
-def _batch(seed: int, indices: Sequence[int], cumulative: FloatArray) -> list[LabelledStroke]:
+def _batch(seed: int, indices: Sequence[int], cumulative: list[float]) -> list[LabelledStroke]:
     rngs = [np.random.default_rng([seed, index]) for index in indices]
     meant = [_meant(rng, cumulative) for rng in rngs]
     batch = draw_batch([path for _, path, _ in meant], [writer for _, _, writer in meant], rngs)
@@ -95,10 +96,10 @@ def _batch(seed: int, indices: Sequence[int], cumulative: FloatArray) -> list[La
     ]
 
 
-def _meant(rng: np.random.Generator, cumulative: FloatArray) -> tuple[StrokeKind, FloatArray, Writer]:
+def _meant(rng: np.random.Generator, cumulative: list[float]) -> tuple[StrokeKind, FloatArray, Writer]:
     """A kind, a path of that kind at its place and size, and the writer who will draw it."""
     u, large, x, y = rng.random(4).tolist()
-    kind = STROKE_KINDS[min(int(np.searchsorted(cumulative, u, side="right")), len(STROKE_KINDS) - 1)]
+    kind = STROKE_KINDS[min(bisect_right(cumulative, u), len(STROKE_KINDS) - 1)]
     writer = sample_writer(rng)
     path = FAMILIES[kind](rng)
     low, high = RULE.size
@@ -108,7 +109,7 @@ def _meant(rng: np.random.Generator, cumulative: FloatArray) -> tuple[StrokeKind
     elif kind == "math":
         writer = replace(writer, wobble=RULE.loose * writer.wobble)
     size = low * (high / low) ** large
-    return kind, size * path + 500.0 * np.array([x, y]), writer
+    return kind, size * path + (500.0 * x, 500.0 * y), writer
 
 
 def formula_strokes(count: int, seed: int, start: int = 0) -> list[LabelledStroke]:
