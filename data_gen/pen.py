@@ -126,10 +126,13 @@ def _late(paths: FloatArray, share: FloatArray) -> FloatArray:
     """The first share of each path as a straight line: what a device sees that wakes up late."""
     place = np.linspace(0.0, 1.0, paths.shape[1])
     seen = np.minimum((share * (paths.shape[1] - 1)).astype(int), paths.shape[1] - 1)
-    woken = paths[np.arange(len(paths)), seen][:, None]
-    reach = np.maximum(place[seen], 1e-9)[:, None]
-    chord = paths[:, :1] + (place / reach)[..., None] * (woken - paths[:, :1])
-    return np.where((place < reach)[..., None], chord, paths)
+    slow = np.flatnonzero(seen)
+    reach = place[seen[slow], None]
+    start = paths[slow, :1]
+    chord = start + (place / reach)[..., None] * (paths[slow, seen[slow]][:, None] - start)
+    bridged = paths.copy()
+    bridged[slow] = np.where((place < reach)[..., None], chord, paths[slow])
+    return bridged
 
 
 def _travel(
