@@ -213,7 +213,7 @@ def mathematics(rng: np.random.Generator) -> FloatArray:
 
 
 def letter_part(rng: np.random.Generator) -> FloatArray:
-    """Any stroke of any symbol of mathematics, bars, rings and dots included: what stands in a formula."""
+    """Any stroke of any symbol of mathematics, bars and rings included: what stands in a formula."""
     return _turned(pick(lone_strokes("all"), rng), 0.1 * float(rng.standard_normal()))
 
 
@@ -274,7 +274,8 @@ def _convex_corners(rng: np.random.Generator, which: float) -> FloatArray:
         corners = np.array([[0.0, 0.0], [1.0, 0.0], apex])
         angle = 0.08 * z[2] if u[2] < 0.65 else 2 * np.pi * u[3]
     elif which < 0.84:
-        aspect = exp(0.5 * z[0])
+        # One rectangle in eight is a plank: a floor, a shelf, a beam of up to 25:1.
+        aspect = exp(0.5 * z[0]) if u[4] > 0.125 else exp(1.5 + 1.7 * u[5])
         half = 0.5 * np.array([aspect**0.5, aspect**-0.5])
         corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * half
         if which > 0.78:

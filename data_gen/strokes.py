@@ -9,6 +9,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import hypot
 
 import numpy as np
 
@@ -108,12 +109,20 @@ def _meant(rng: np.random.Generator, cumulative: list[float]) -> tuple[StrokeKin
         writer = replace(writer, hooks=0.0, grid=max(writer.grid, RULE.tap_grid))
     elif kind == "math":
         writer = replace(writer, wobble=RULE.loose * writer.wobble)
+    elif kind == "polygon":
+        writer = replace(writer, wobble=_steadied(path) * writer.wobble)
     size = low * (high / low) ** large
     return kind, size * path + (500.0 * x, 500.0 * y), writer
 
 
+def _steadied(path: FloatArray) -> float:
+    """How much less a pen wavers along a polygon that is thin: the eye sees both of its long sides."""
+    width, height = np.ptp(path, axis=0).tolist()
+    return min(1.0, (2 * width * height) ** 0.5 / hypot(width, height))
+
+
 def formula_strokes(count: int, seed: int, start: int = 0) -> list[LabelledStroke]:
-    """Strokes as they stand inside formulas: bars, rings and dots too, all of them mathematics.
+    """Strokes as they stand inside formulas: bars and rings too, all of them mathematics.
 
     They need their neighbours to be read; `generate` leaves them out of "math" for that reason.
     """

@@ -28,7 +28,7 @@ class CorpusRule:
     shard: int = 4096
     """Strokes made at a time by one process: seconds of work, 13 MB of features."""
     formula: float = 0.10
-    """Share of strokes that stand inside formulas, where bars, rings and dots are mathematics."""
+    """Share of strokes that stand inside formulas, where bars and rings are mathematics."""
     company: float = 0.5
     """Share of the other strokes that are imagined among others; the rest stand alone."""
     lasso_alone: float = 0.15

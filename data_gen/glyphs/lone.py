@@ -19,12 +19,14 @@ from sketch.ink import FloatArray
 
 Pool = Literal["symbols", "marks", "round letters", "all"]
 """All symbols or all other marks, as far as they are mathematics when alone; letters without rows of legs,
-which words are made of; and every stroke of every symbol, for formulas."""
+which words are made of; and every stroke of every symbol but its dots, for formulas."""
 
 STRAIGHT = 0.93
 """A stroke whose chord is more of its length than this is a wire when alone."""
 SMALL = 2.5
 """A stroke shorter than this (a capital is 10 high) is a dot or a dash when alone."""
+DOT = 1.0
+"""A stroke no longer than this is a dot, which no eye tells from a tap: where it stands must decide."""
 RING = 0.1
 """The ring of θ, φ or Q closes within this fraction of its length, and is a circle when alone."""
 
@@ -65,7 +67,7 @@ def _strokes(name: str, pool: Pool) -> tuple[FloatArray, ...]:
         stroke for variant in range(alphabet.variants(name)) for stroke in alphabet.strokes(name, variant)
     ]
     if pool == "all":
-        return tuple(stroke / 10 for stroke in every)
+        return tuple(stroke / 10 for stroke in every if path_length(stroke) > DOT)
     kept: Sequence[FloatArray] = [stroke for stroke in every if not _component_like(name, stroke)]
     if pool == "round letters":
         return tuple(stroke / 10 for stroke in kept)
