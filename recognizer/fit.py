@@ -41,6 +41,8 @@ class FitRule:
     """Share of the perimeter below which a side was cut off a sharp corner by sampling,"""
     sharp: float = radians(165)
     """unless the outline turns by more: the tip of a sliver of 15°."""
+    side: int = 48
+    """Points of a side that was drawn as a stroke of its own."""
     corner: float = 0.12
     """Share of a side's points left out at either end: corners are rounded there."""
     straight_on: float = radians(18)
@@ -72,21 +74,44 @@ def fit(kind: ComponentKind, strokes: list[Stroke]) -> Shape | None:
         return None  # ink without extent
 
 
+def fit_sides(strokes: list[Stroke]) -> Polygon | None:
+    """The polygon whose sides are three or more strokes that close end to end, each nearly straight: a
+    line through each, and a corner where neighbouring lines meet. None where they outline nothing."""
+    if len(strokes) < 3:
+        return None
+    sides = in_order(strokes)
+    low, size = np.concatenate(sides).min(axis=0), diagonal(np.concatenate(sides))
+    if size == 0 or min(diagonal(side) for side in sides) == 0:
+        return None
+    unit = [resample((side - low) / size, FIT.side) for side in sides]
+    lines = [_line(side) for side in unit]
+    corners = np.array(
+        [_meeting(lines[k - 1], lines[k], 0.5 * (unit[k - 1][-1] + unit[k][0])) for k in range(len(lines))]
+    )
+    corners = _straightened(corners)
+    return Polygon(low + size * _convex(corners)) if len(corners) >= 3 else None
+
+
 def joined(strokes: list[Stroke]) -> FloatArray:
     """The strokes' points as one path, (n, 2): each stroke is appended, or turned about, so that
     its nearer end follows on; the first begins at its end that lies farther from the others."""
+    return np.concatenate(in_order(strokes))
+
+
+def in_order(strokes: list[Stroke]) -> list[FloatArray]:
+    """The strokes' points, each (n, 2), in the order and sense in which they follow on one another."""
     if len(strokes) == 1:
-        return strokes[0].points
+        return [strokes[0].points]
     waiting = [stroke.points for stroke in strokes]
-    path = waiting.pop(0)
+    first = waiting.pop(0)
     others = np.concatenate([points[[0, -1]] for points in waiting])
-    if _nearest(path[0], others) < _nearest(path[-1], others):
-        path = path[::-1]
+    path = [first[::-1] if _nearest(first[0], others) < _nearest(first[-1], others) else first]
     while waiting:
-        gaps = [[float(np.hypot(*(points[end] - path[-1]))) for end in (0, -1)] for points in waiting]
+        end_of = path[-1][-1]
+        gaps = [[float(np.hypot(*(points[end] - end_of))) for end in (0, -1)] for points in waiting]
         which, end = np.unravel_index(int(np.argmin(gaps)), (len(gaps), 2))
         points = waiting.pop(int(which))
-        path = np.concatenate([path, points[::-1] if end else points])
+        path.append(points[::-1] if end else points)
     return path
 
 

@@ -26,6 +26,8 @@ class GroupRule:
     joint: tuple[float, float] = (0.15, 0.04)
     """Gap between two strokes' ends over the shorter and the longer stroke's size, added up, where an
     outline goes on: a corner is missed by a share of either side."""
+    closed: float = 0.06
+    """Gap between a stroke's own ends over its size, below which it is an outline by itself."""
     neighbours: int = 6
     """Nearest ends that are looked at: where sides, wires and a letter meet there are no more."""
     letter_gap: float = 1.0
@@ -109,6 +111,7 @@ def _joints(ends: FloatArray, sizes: FloatArray, rule: GroupRule) -> list[tuple[
     if len(ends) < 4:
         return []
     own = np.hypot(*np.transpose(ends[0::2] - ends[1::2])).tolist()
+    whole = [gap < rule.closed * size for gap, size in zip(own, sizes.tolist(), strict=True)]
     count = min(rule.neighbours + 1, len(ends))
     found = KDTree(ends).query(ends, k=count)
     away, near = np.asarray(found[0]), np.asarray(found[1])
@@ -118,7 +121,7 @@ def _joints(ends: FloatArray, sizes: FloatArray, rule: GroupRule) -> list[tuple[
             i, j = end // 2, other // 2
             shorter, longer = sorted((float(sizes[i]), float(sizes[j])))
             reach = rule.joint[0] * shorter + rule.joint[1] * longer
-            if end < other and i != j and gap <= min(reach, own[i], own[j]):
+            if end < other and i != j and gap <= min(reach, own[i], own[j]) and not (whole[i] or whole[j]):
                 joints.append((gap, end, other))
     return sorted(joints)
 

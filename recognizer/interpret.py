@@ -43,6 +43,9 @@ class InterpretRule:
     """Letter heights from a note's place to the ink of its line, at most."""
     point: float = 0.6
     """Letter heights from a dot that just misses a solid to the writing that it is part of instead."""
+    arrow: float = 0.1
+    """Belief in an arrow below which a stroke that found no other use is no arrow either: a net is then
+    sure of something else, and what it thinks least unlikely means nothing."""
     row: float = 0.15
     """Share of the page's height within which two components stand in one row."""
 
@@ -108,7 +111,7 @@ def _leftover(
     what their claims prefer, but a mark among letters is a letter."""
     used = {stroke for part in parts for stroke in part.strokes}
     left = [index for index, kind in enumerate(kinds) if kind in DRAWN_KINDS and index not in used]
-    pointing = [index for index in left if claims[index].score("arrow") > claims[index].score("math")]
+    pointing = [index for index in left if _points(claims[index])]
     aside = set(pointing)
     writing = [index for index in left if index not in aside]
     letters = among_letters(ink, [(index,) for index in pointing], writing)
@@ -116,6 +119,11 @@ def _leftover(
         [index for index, letter in zip(pointing, letters, strict=True) if not letter],
         sorted([*writing, *(index for index, letter in zip(pointing, letters, strict=True) if letter)]),
     )
+
+
+def _points(claim: Claim) -> bool:
+    """Whether a stroke that drew no solid and no link is part of an arrow rather than of mathematics."""
+    return claim.score("arrow") > max(claim.score("math"), RULE.arrow)
 
 
 def _tapped(

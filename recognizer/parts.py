@@ -13,7 +13,7 @@ import numpy as np
 import shapely
 
 from recognizer.attach import Solids
-from recognizer.fit import fit, joined
+from recognizer.fit import fit, fit_sides, joined
 from recognizer.geometric.ring import ring
 from recognizer.geometric.rules import RULES, outline_evidence
 from recognizer.group import boxes_of, chains, letter_height
@@ -145,8 +145,10 @@ def arrows(ink: Ink, strokes: Sequence[int], rule: PartRule = PARTS) -> list[Par
 
 
 def _outline_of(strokes: list[Stroke], kinds: list[StrokeKind | None]) -> Solid | None:
-    """What several strokes outline together: what one of them was claimed for, else what fits better;
-    None where they outline nothing well."""
+    """What several strokes outline together: what one of them was claimed for, the polygon of straight
+    sides, else what fits better; None where they outline nothing well."""
+    if all(kind == "wire" for kind in kinds) and (sides := fit_sides(strokes)) is not None:
+        return sides
     path = joined(strokes)
     named = next((kind for kind in kinds if kind in ("circle", "polygon")), None)
     if named is None:
