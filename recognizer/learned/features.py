@@ -318,7 +318,8 @@ def _chord_deviation(unit: FloatArray) -> FloatArray:
     chord = unit[:, -1] - unit[:, 0]
     offset = unit - unit[:, :1]
     cross = np.abs(chord[:, None, 0] * offset[..., 1] - chord[:, None, 1] * offset[..., 0])
-    return cross.max(axis=1) / _positive(_distance(chord))
+    # A chord of no length has no direction to stray from.
+    return cross.max(axis=1) / np.maximum(_distance(chord), RULE.nothing)
 
 
 def _best_closing(unit: FloatArray) -> FloatArray:
