@@ -31,7 +31,9 @@ class StrokeRule:
     tap_size: tuple[float, float] = (0.3, 3.0)
     """The same for taps: a resting hand moves by a pixel or two."""
     tap_grid: float = 0.5
-    """A resting pen's points are at least this coarse, page units: a device reports no move smaller."""
+    """A resting pen's points are at least this coarse, page units, on a device that reports no smaller move,"""
+    resting: float = 0.5
+    """and this share of taps comes from such a device; the others tremble from point to point."""
     loose: float = 1.5
     """Letters waver this much more than shapes, against their size: they are small and quick."""
 
@@ -106,7 +108,8 @@ def _meant(rng: np.random.Generator, cumulative: list[float]) -> tuple[StrokeKin
     low, high = RULE.size
     if kind == "tap":
         low, high = RULE.tap_size
-        writer = replace(writer, hooks=0.0, grid=max(writer.grid, RULE.tap_grid))
+        coarse = RULE.tap_grid if float(rng.random()) < RULE.resting else 0.0
+        writer = replace(writer, hooks=0.0, grid=max(writer.grid, coarse))
     elif kind == "math":
         writer = replace(writer, wobble=RULE.loose * writer.wobble)
     elif kind == "polygon":

@@ -15,7 +15,7 @@ from joblib import Parallel, delayed
 from numpy.typing import NDArray
 
 from data_gen.strokes import MIX, LabelledStroke, formula_strokes, generate
-from recognizer.learned.features import PAGE_FEATURES, RULE, of_strokes
+from recognizer.learned.features import GLOBAL_FEATURES, PAGE_FEATURES, RULE, of_strokes
 from sketch.page import STROKE_KINDS, StrokeKind
 
 Float32 = NDArray[np.float32]
@@ -31,6 +31,8 @@ class CorpusRule:
     """Share of strokes that stand inside formulas, where bars and rings are mathematics."""
     company: float = 0.5
     """Share of the other strokes that are imagined among others; the rest stand alone."""
+    resting: float = 0.5
+    """A tap with more different points than this (of `few_points`) trembles: its size alone tells it."""
     lasso_alone: float = 0.15
     """The same for lassos standing alone: with nothing inside it, a lasso is a badly drawn circle."""
 
@@ -84,9 +86,10 @@ def _shard(seed: int, first: int, count: int) -> Corpus:
     made = generate(count - in_formulas, seed, first, MIX)
     inside = formula_strokes(in_formulas, seed + 1, first)
     rng = np.random.default_rng([seed, first, 7])
-    page = np.concatenate([_imagined_page(made, rng), _imagined_formula(len(inside), rng)])
     strokes = made + inside
     sequence, overall = of_strokes([item.stroke.points for item in strokes])
+    trembling = overall[: len(made), GLOBAL_FEATURES.index("different points (few)")] > CORPUS_RULE.resting
+    page = np.concatenate([_imagined_page(made, trembling, rng), _imagined_formula(len(inside), rng)])
     return Corpus(
         sequence.astype(np.float32),
         np.concatenate([overall, page], axis=1).astype(np.float32),
@@ -94,12 +97,17 @@ def _shard(seed: int, first: int, count: int) -> Corpus:
     )
 
 
-def _imagined_page(strokes: Sequence[LabelledStroke], rng: np.random.Generator) -> NDArray[np.float64]:
-    """Page features as if each stroke stood on some page, or alone: (n, 3)."""
+def _imagined_page(
+    strokes: Sequence[LabelledStroke], trembling: NDArray[np.bool_], rng: np.random.Generator
+) -> NDArray[np.float64]:
+    """Page features as if each stroke stood on some page, or alone: (n, 3). Trembling taps stand on pages
+    only: alone, a tremble that fills the eye is a drawing."""
     found = np.zeros((len(strokes), len(PAGE_FEATURES)))
-    for row, item in zip(found, strokes, strict=True):
+    for row, item, many in zip(found, strokes, trembling.tolist(), strict=True):
         u = rng.random(4)
         alone = CORPUS_RULE.lasso_alone if item.kind == "lasso" else 1 - CORPUS_RULE.company
+        if item.kind == "tap" and many:
+            alone = 0.0
         if u[0] < alone:
             continue
         low, high = np.log(RELATIVE_SIZE[item.kind])
