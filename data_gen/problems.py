@@ -25,7 +25,7 @@ from data_gen.diagrams.spring import mass_on_spring
 from data_gen.diagrams.stack import stack_of_boxes
 from data_gen.diagrams.wires import TENSIONS, box_on_two_wires
 from sketch.geometry import bounding_box
-from sketch.page import Component, labels
+from sketch.page import Component, label
 from sketch.shapes import outline
 
 _DIAGRAMS: dict[str, Callable[[str, np.random.Generator], Problem]] = {
@@ -50,7 +50,7 @@ ANSWERS: dict[str, tuple[str, ...]] = {
 
 _ROW = 60.0
 """Height of a row in which people read from left to right, page units."""
-_LABELS = tuple(labels()[:26])
+_LABELS = tuple(label(rank) for rank in range(26))
 
 
 def problem(name: str, answer: str, rng: np.random.Generator) -> Problem:

@@ -20,7 +20,7 @@ from recognizer.group import boxes_of, letter_height, lines
 from recognizer.parts import Part, among_letters, arrows, links, shapes
 from sketch.formula.parse import expression
 from sketch.ink import FloatArray, Ink
-from sketch.page import Association, Component, Expression, Gesture, Sketch, StrokeKind
+from sketch.page import Association, Component, Expression, Gesture, Sketch, StrokeKind, label
 from sketch.shapes import COMPONENT_KINDS, Circle, Point, Polygon, outline
 
 
@@ -182,15 +182,6 @@ def reading_order(centres: FloatArray, rule: InterpretRule = RULE) -> list[int]:
         else:
             row[position] = row.max()
     return np.lexsort((centres[:, 0], row)).tolist()
-
-
-def label(rank: int) -> str:
-    """A, B … Z, AA, AB … for rank 0, 1 …"""
-    rest, letters = rank + 1, ""
-    while rest:
-        rest, digit = divmod(rest - 1, 26)
-        letters = chr(ord("A") + digit) + letters
-    return letters
 
 
 def _written(

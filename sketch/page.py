@@ -156,7 +156,10 @@ class Sketch:
         return tuple(kinds)
 
 
-def labels() -> list[str]:
-    """Labels in the order in which they are given out: A … Z, A1 … Z1, A2 …"""
-    letters = [chr(ord("A") + k) for k in range(26)]
-    return [letter + (str(turn) if turn else "") for turn in range(1000) for letter in letters]
+def label(rank: int) -> str:
+    """The label given out at a rank in reading order: A, B … Z, AA, AB … for 0, 1 …"""
+    rest, letters = rank + 1, ""
+    while rest:
+        rest, digit = divmod(rest - 1, 26)
+        letters = chr(ord("A") + digit) + letters
+    return letters

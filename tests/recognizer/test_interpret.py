@@ -11,12 +11,12 @@ from data_gen import ideals
 from data_gen.pages import page as generated
 from data_gen.problems import PROBLEMS
 from recognizer.claims import Claim, claim_for
-from recognizer.interpret import Note, interpret, label, notes_of, reading_order
+from recognizer.interpret import Note, interpret, notes_of, reading_order
 from recognizer.oracle import Oracle
 from recognizer.roster import recognizer
 from sketch.geometry import resample
 from sketch.ink import FloatArray, Ink, Stroke
-from sketch.page import STROKE_KINDS, Gesture, Sketch, StrokeKind
+from sketch.page import STROKE_KINDS, Gesture, Sketch, StrokeKind, label
 
 BOX = ideals.polygon([[0, 0], [140, 0], [140, 90], [0, 90]])
 HIGH_BOX = ideals.polygon([[20, -200], [120, -200], [120, -150], [20, -150]])
