@@ -46,10 +46,10 @@ MIX: Mapping[StrokeKind, float] = {
     "spring": 0.15,
     "wire": 0.13,
     "arrow": 0.09,
-    "tap": 0.04,
+    "tap": 0.06,
     "scribble": 0.04,
     "lasso": 0.04,
-    "math": 0.21,
+    "math": 0.19,
 }
 """Shares of the kinds: what needs variety most, most. Suites draw them equally instead."""
 

@@ -15,7 +15,7 @@ from joblib import Parallel, delayed
 from numpy.typing import NDArray
 
 from data_gen.strokes import MIX, LabelledStroke, formula_strokes, generate
-from recognizer.learned.features import GLOBAL_FEATURES, PAGE_FEATURES, RULE, of_strokes
+from recognizer.learned.features import GLOBAL_FEATURES, PAGE_FEATURES, of_strokes, standing
 from sketch.page import STROKE_KINDS, StrokeKind
 
 Float32 = NDArray[np.float32]
@@ -45,20 +45,20 @@ RELATIVE_SIZE: dict[StrokeKind, tuple[float, float]] = {
     "spring": (0.06, 1.0),
     "wire": (0.05, 1.0),
     "arrow": (0.05, 1.0),
-    "tap": (0.0005, 0.01),
+    "tap": (0.0005, 0.009),
     "scribble": (0.04, 1.0),
     "lasso": (0.08, 1.0),
     "math": (0.01, 0.6),
 }
 """Log-uniform range of a stroke's size against its page's, by kind: rough on purpose."""
 
-FORMULA_SIZE = (0.004, 0.05)
+FORMULA_SIZE = (0.005, 0.05)
 """The same for strokes inside formulas: letters 2 to 4 % of a page, their bars and dots less."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Corpus:
-    """sequence (B, 12, 64), whole (B, 25) float32 features; kind (B,) indices into `STROKE_KINDS`."""
+    """sequence (B, 12, 64), whole (B, 26) float32 features; kind (B,) indices into `STROKE_KINDS`."""
 
     sequence: Float32
     whole: Float32
@@ -100,7 +100,7 @@ def _shard(seed: int, first: int, count: int) -> Corpus:
 def _imagined_page(
     strokes: Sequence[LabelledStroke], trembling: NDArray[np.bool_], rng: np.random.Generator
 ) -> NDArray[np.float64]:
-    """Page features as if each stroke stood on some page, or alone: (n, 3). Trembling taps stand on pages
+    """Page features as if each stroke stood on some page, or alone: (n, 4). Trembling taps stand on pages
     only: alone, a tremble that fills the eye is a drawing."""
     found = np.zeros((len(strokes), len(PAGE_FEATURES)))
     for row, item, many in zip(found, strokes, trembling.tolist(), strict=True):
@@ -110,21 +110,20 @@ def _imagined_page(
             alone = 0.0
         if u[0] < alone:
             continue
-        low, high = np.log(RELATIVE_SIZE[item.kind])
-        row[0] = 1.0
-        row[1] = max(low + (high - low) * u[1], np.log(RULE.smallest)) / 3.0
+        low, high = RELATIVE_SIZE[item.kind]
+        inside = 0.0
         if item.kind == "lasso":
-            row[2] = 0.03 + 0.9 * u[2]
+            inside = 0.03 + 0.9 * u[2]
         elif item.kind in ("circle", "polygon") and u[3] < 0.6:
             # Taps lie inside, and a neighbour's centre may lie inside the bounding box.
-            row[2] = 0.4 * u[2] ** 2
+            inside = 0.4 * u[2] ** 2
+        row[:] = standing(np.array([low * (high / low) ** u[1]]), np.array([inside]))[0]
     return found
 
 
 def _imagined_formula(count: int, rng: np.random.Generator) -> NDArray[np.float64]:
-    low, high = np.log(FORMULA_SIZE)
-    size = np.maximum(low + (high - low) * rng.random(count), np.log(RULE.smallest)) / 3.0
-    return np.column_stack([np.ones(count), size, np.zeros(count)])
+    low, high = FORMULA_SIZE
+    return standing(low * (high / low) ** rng.random(count), np.zeros(count))
 
 
 def _joined(parts: Sequence[Corpus]) -> Corpus:

@@ -29,7 +29,7 @@ class Calibrated(nn.Module):
 
 
 def export(net: StrokeNet, temperature: float, target: Path, metadata: dict[str, str]) -> None:
-    """Writes the ONNX file. Inputs "sequence" (B, 12, 64) and "whole" (B, 25) float32, output "logits" (B, 9)."""
+    """Writes the ONNX file. Inputs "sequence" (B, 12, 64) and "whole" (B, 26) float32, output "logits" (B, 9)."""
     example = (
         torch.zeros(2, len(SEQUENCE_CHANNELS), POINTS),
         torch.zeros(2, len(GLOBAL_FEATURES) + len(PAGE_FEATURES)),

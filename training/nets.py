@@ -10,7 +10,7 @@ from sketch.page import STROKE_KINDS
 
 
 class StrokeNet(nn.Module):
-    """sequence (B, 12, 64), whole (B, 25) -> logits (B, 9) over `STROKE_KINDS`."""
+    """sequence (B, 12, 64), whole (B, 26) -> logits (B, 9) over `STROKE_KINDS`."""
 
     def __init__(self, width: int = 48) -> None:
         super().__init__()

@@ -34,6 +34,8 @@ class FeatureRule:
     """A stroke with this many different points or more is not a dot; beyond it the count is not looked at."""
     smallest: float = 5e-4
     """Relative sizes on a page below this count as this."""
+    letter: float = 0.006
+    """A small letter's size over its page's: dots and taps lie below, hardly anything else does."""
     nothing: float = 1e-6
     """Lengths (of a stroke of size one) and angles below this are rounding, not drawing."""
 
@@ -78,7 +80,12 @@ GLOBAL_FEATURES = (
     "different points (few)",
     "is a dot",
 )
-PAGE_FEATURES = ("has company", "log size over the page's", "share of the page's other strokes inside")
+PAGE_FEATURES = (
+    "has company",
+    "log size over the page's",
+    "log of how far below a letter's size",
+    "share of the page's other strokes inside",
+)
 
 
 def features(paths: FloatArray, distinct_points: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -162,7 +169,7 @@ def _global(shared: _Shared, few: FloatArray, still: NDArray[np.bool_]) -> Float
 
 
 def page_features(ink: Ink) -> FloatArray:
-    """How each stroke stands among the others, (n, 3), in the order of `PAGE_FEATURES`; zeros when alone."""
+    """How each stroke stands among the others, (n, 4), in the order of `PAGE_FEATURES`; zeros when alone."""
     count = len(ink)
     if count < 2:
         return np.zeros((count, len(PAGE_FEATURES)))
@@ -170,9 +177,16 @@ def page_features(ink: Ink) -> FloatArray:
     high = np.array([stroke.points.max(axis=0) for stroke in ink])
     sizes = np.linalg.norm(high - low, axis=1)
     page = float(np.linalg.norm(high.max(axis=0) - low.min(axis=0)))
-    relative = np.log(np.maximum(sizes / page if page > 0 else sizes + 1.0, RULE.smallest))
-    inside = _boxes_inside(low, high)
-    return np.column_stack([np.ones(count), relative / 3.0, inside / (count - 1)])
+    relative = sizes / page if page > 0 else np.ones(count)
+    return standing(relative, _boxes_inside(low, high) / (count - 1))
+
+
+def standing(relative: FloatArray, inside: FloatArray) -> FloatArray:
+    """Page features (n, 4) of strokes in company, from their sizes over the page's and the share of the other
+    strokes that lie inside each, both (n,)."""
+    log_size = np.log(np.maximum(relative, RULE.smallest))
+    below = np.maximum(np.log(RULE.letter) - log_size, 0.0)
+    return np.column_stack([np.ones(len(log_size)), log_size / 3.0, below, inside])
 
 
 def _boxes_inside(low: FloatArray, high: FloatArray) -> FloatArray:

@@ -89,7 +89,7 @@ def test_a_stroke_alone_has_no_page() -> None:
 def test_what_a_loop_encloses_is_seen() -> None:
     inside = [Stroke(0.02 * _ring() + np.array([x, 0.0])) for x in (-40.0, 0.0, 40.0)]
     page = Ink((Stroke(_ring()), *inside, Stroke(_ring() + np.array([500.0, 0.0]))))
-    assert page_features(page)[:, 2] == pytest.approx([0.75, 0, 0, 0, 0])
+    assert page_features(page)[:, -1] == pytest.approx([0.75, 0, 0, 0, 0])
 
 
 def test_claims_do_not_depend_on_how_many_strokes_are_read_at_once() -> None:
