@@ -13,6 +13,8 @@ from sketch.ink import FloatArray
 STEADY = 0.02
 """Speed is called steady in its growth when it leaves a straight line by at most this share of its range."""
 
+STEADY_FATES = ("rolls", "falls")
+"""Fates of which a straight line of speed is worth telling: a shallow bounce hardly bends it, and is none."""
 CARRIED = 0.2
 """Seconds of contact before a fall that are worth telling."""
 
@@ -31,12 +33,11 @@ def happened(motion: Motion, outcome: Outcome) -> list[str]:
         way = float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
         told.append(
             f"{label}, a {kind}, {_rolling_first(motion, label) if fate == 'falls' else ''}{fate}: {way:.2f} m of way in {span:.2f} s, "
-            f"{float(speed[-1]):.2f} m/s at the end.{_steadily(trajectory.times, speed)}"
+            f"{float(speed[-1]):.2f} m/s at the end."
+            f"{_steadily(trajectory.times, speed) if fate in STEADY_FATES else ''}"
         )
     told += _impacts(motion)
-    told += [
-        f"At {event.time:.2f} s {event.message}." for event in trajectory.events if event.kind == "break"
-    ]
+    told += _turning_points(motion)
     return [*told, *motion.notices]
 
 
@@ -61,6 +62,18 @@ def _steadily(times: FloatArray, speed: FloatArray) -> str:
         if slope > 0 and off < STEADY * span
         else ""
     )
+
+
+def _turning_points(motion: Motion) -> list[str]:
+    """What broke, and the first time that each body was struck back or lifted off by a given force."""
+    seen: set[tuple[str, tuple[str, ...]]] = set()
+    told: list[str] = []
+    for event in motion.trajectory.events:
+        key = (event.kind, event.bodies)
+        if event.kind == "break" or (event.kind in ("bounce", "lift-off") and key not in seen):
+            told.append(f"At {event.time:.2f} s {event.message.rstrip('.')}.")
+        seen.add(key)
+    return told
 
 
 def _impacts(motion: Motion) -> list[str]:

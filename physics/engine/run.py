@@ -157,7 +157,7 @@ def _watch_wires(world: World, state: State, events: list[Event]) -> None:
             cord.broken = True
             change = "longer" if off > 0 else "shorter"
             message = (
-                f"wire {cord.label} breaks: {abs(off):.3g} m {change} than it is, with the tension given"
+                f"wire {cord.label} breaks: {abs(off):.3g} m {change} than drawn, under the tension given"
             )
             events.append(Event(state.time, "break", (cord.label, *bodies), message))
         elif cord.tension is None and cord.slack != (off < -RULE.slack):
