@@ -17,11 +17,24 @@ import onnxruntime
 from scipy.special import softmax
 
 from recognizer.claims import Claim
-from recognizer.learned.features import both_ways, page_features
+from recognizer.learned.features import (
+    GLOBAL_FEATURES,
+    PAGE_FEATURES,
+    POINTS,
+    SEQUENCE_CHANNELS,
+    both_ways,
+    page_features,
+)
 from sketch.ink import FloatArray, Ink
 from sketch.page import STROKE_KINDS, StrokeKind
 
 WEIGHTS = Path(__file__).parent / "weights" / "strokes.onnx"
+
+CONTRACT = {
+    "sequence": [len(SEQUENCE_CHANNELS), POINTS],
+    "whole": [len(GLOBAL_FEATURES) + len(PAGE_FEATURES)],
+}
+"""Inputs of the ONNX file, float32, each with the batch in front; its output is "logits" (B, 9)."""
 
 REJECT_BELOW = 0.35
 """Confidence below which the net would rather not say: a rejected stroke belongs to nobody, and on a page a
@@ -87,5 +100,10 @@ def _session(weights: Path) -> Any:
         raise WeightsError(
             f"{weights} answers for the kinds {recipe.get('kinds')}; needed are {list(STROKE_KINDS)}. "
             "Train it again with `inklined train`."
+        )
+    shapes = {entry.name: list(entry.shape[1:]) for entry in session.get_inputs()}
+    if shapes != CONTRACT:
+        raise WeightsError(
+            f"{weights} takes {shapes}; this version gives {CONTRACT}. Train it again with `inklined train`."
         )
     return session
