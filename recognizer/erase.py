@@ -39,21 +39,13 @@ def erased(ink: Ink, kinds: Sequence[StrokeKind | None], rule: EraseRule = ERASE
     tree = shapely.STRtree(lines)
     gone: set[int] = set()
     for scribble in scribbles:
-        near = tree.query(lines[scribble])
-        hull = lines[scribble].convex_hull
-        shapely.prepare(hull)
-        for index in np.sort(near[near < scribble])[-rule.latest :].tolist():
-            if index in gone or kinds[index] in ("scribble", "lasso", "tap"):
-                continue
-            inside = float(shapely.contains_xy(hull, *ink[index].points.T).mean())
-            if inside >= rule.covered or _crossings(lines[scribble], lines[index]) >= rule.hits:
-                gone.add(index)
+        gone.update(_gone_over(ink, kinds, lines, tree, scribble, rule))
     return gone
 
 
-def without_object(ink: Ink, kinds: Sequence[StrokeKind | None]) -> set[int]:
-    """Indices of the gestures that can mean nothing: scribbles whose hull no earlier stroke meets, lassos
-    whose hull contains none but dots."""
+def without_object(ink: Ink, kinds: Sequence[StrokeKind | None], rule: EraseRule = ERASE) -> set[int]:
+    """Indices of the gestures that can mean nothing: scribbles that go over no earlier stroke (a spring
+    meets what it hangs on, but at its ends), lassos whose hull contains none but dots."""
     gestures = [index for index, kind in enumerate(kinds) if kind in ("scribble", "lasso")]
     if not gestures:
         return set()
@@ -61,11 +53,36 @@ def without_object(ink: Ink, kinds: Sequence[StrokeKind | None]) -> set[int]:
     tree = shapely.STRtree(lines)
     idle: set[int] = set()
     for index in gestures:
-        predicate = "intersects" if kinds[index] == "scribble" else "contains"
-        met = tree.query(lines[index].convex_hull, predicate=predicate)
-        if not any(other < index and kinds[other] != "tap" for other in met.tolist()):
+        if kinds[index] == "scribble":
+            met = _gone_over(ink, kinds, lines, tree, index, rule)
+        else:
+            met = tree.query(lines[index].convex_hull, predicate="contains").tolist()
+        if not any(other < index and kinds[other] != "tap" for other in met):
             idle.add(index)
     return idle
+
+
+def _gone_over(
+    ink: Ink,
+    kinds: Sequence[StrokeKind | None],
+    lines: Sequence[shapely.LineString],
+    tree: shapely.STRtree,
+    scribble: int,
+    rule: EraseRule,
+) -> list[int]:
+    """The earlier strokes, no gestures, that a scribble covers or crosses to and fro."""
+    near = tree.query(lines[scribble])
+    hull = lines[scribble].convex_hull
+    shapely.prepare(hull)
+    return [
+        index
+        for index in np.sort(near[near < scribble])[-rule.latest :].tolist()
+        if kinds[index] not in ("scribble", "lasso", "tap")
+        and (
+            float(shapely.contains_xy(hull, *ink[index].points.T).mean()) >= rule.covered
+            or _crossings(lines[scribble], lines[index]) >= rule.hits
+        )
+    ]
 
 
 def _lines(ink: Ink) -> list[shapely.LineString]:
