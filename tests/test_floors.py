@@ -38,14 +38,14 @@ class Floor:
 
 
 FLOORS: dict[str, Floor] = {
-    # five 0.653, claimable 0.707, ece 0.315; strokes 0.979, exact 0.625, same 0.667, motion 0.260
+    # five 0.653, claimable 0.703, ece 0.318; strokes 0.979, exact 0.625, same 0.667, motion 0.253
     "paper": Floor(0.64, 0.69, 0.33, strokes=0.97, exact=0.58, same_outcome=0.62, motion=0.30),
-    # five 0.945, claimable 0.814, ece 0.078; strokes 0.994, exact 0.917, same 0.917, motion 0.116
-    "geometric": Floor(0.935, 0.80, 0.09, strokes=0.985, exact=0.87, same_outcome=0.87, motion=0.16),
-    # five 0.980, claimable 0.920, ece 0.028; strokes 0.991, exact 0.917, same 0.917, motion 0.116
-    "learned": Floor(0.97, 0.91, 0.038, strokes=0.982, exact=0.87, same_outcome=0.87, motion=0.16),
-    # strokes 0.998, exact 0.958, same 0.958, motion 0.074
-    "oracle": Floor(None, None, None, strokes=0.99, exact=0.91, same_outcome=0.91, motion=0.12),
+    # five 0.952, claimable 0.815, ece 0.074; strokes 0.996, exact 0.917, same 0.917, motion 0.100
+    "geometric": Floor(0.94, 0.80, 0.085, strokes=0.988, exact=0.87, same_outcome=0.87, motion=0.145),
+    # five 0.980, claimable 0.950, ece 0.031; strokes 0.994, exact 0.875, same 0.875, motion 0.146
+    "learned": Floor(0.97, 0.94, 0.04, strokes=0.985, exact=0.83, same_outcome=0.83, motion=0.19),
+    # strokes 0.998, exact 0.958, same 0.958, motion 0.067
+    "oracle": Floor(None, None, None, strokes=0.99, exact=0.91, same_outcome=0.91, motion=0.11),
 }
 
 

@@ -17,7 +17,7 @@ from sketch.ink import Ink
 
 KINDS = ("circle", "polygon", "spring", "wire", "math")
 
-MEASURED = {"paper": 0.664, "geometric": 0.957}
+MEASURED = {"paper": 0.664, "geometric": 0.957, "learned": 0.981}
 """Balanced accuracy over the five kinds of diagrams, single strokes, alone on their page."""
 SLACK = 0.01
 
