@@ -116,3 +116,20 @@ def test_a_file_that_is_no_net_is_explained(tmp_path: Path) -> None:
     broken.write_bytes(b"not a net")
     with pytest.raises(WeightsError, match="not a usable ONNX file"):
         Learned(broken)
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    x=st.floats(-1e5, 1e5),
+    y=st.floats(-1e5, 1e5),
+    angle=st.floats(0, 6.3),
+    length=st.floats(20, 500),
+    points=st.integers(12, 200),
+)
+def test_an_exactly_straight_line_is_a_wire_wherever_it_stands(
+    x: float, y: float, angle: float, length: float, points: int
+) -> None:
+    along = np.linspace(0, length, points)
+    line = np.array([x, y]) + along[:, None] * np.array([np.cos(angle), np.sin(angle)])
+    (claim,) = Learned().recognize(Ink((Stroke(line),)))
+    assert claim.kind == "wire"
