@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 import onnxruntime
-from scipy.special import softmax
 
 from recognizer.claims import Claim
 from recognizer.learned.features import (
@@ -78,7 +77,9 @@ class Learned:
             None, {"sequence": sequence.astype(np.float32), "whole": whole.astype(np.float32)}
         )
         both = np.asarray(logits, dtype=np.float64).reshape(2, len(points), len(STROKE_KINDS))
-        return np.asarray(softmax(both.mean(axis=0), axis=1), dtype=np.float64)
+        mean = 0.5 * (both[0] + both[1])
+        shares = np.exp(mean - mean.max(axis=1, keepdims=True))
+        return shares / shares.sum(axis=1, keepdims=True)
 
 
 @cache
