@@ -10,13 +10,24 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
-from unittest.mock import patch
 
 import pytest
 
 from inklined.cli import run
-from recognizer.roster import ROSTER
+
+
+@contextlib.contextmanager
+def environment(**settings: str) -> Iterator[None]:
+    """The process's environment with these settings, as it was again afterwards."""
+    before = dict(os.environ)
+    os.environ.update(settings)
+    try:
+        yield
+    finally:
+        os.environ.clear()
+        os.environ.update(before)
 
 
 def inklined(*arguments: object, cwd: Path) -> subprocess.CompletedProcess[str]:
@@ -27,9 +38,8 @@ def inklined(*arguments: object, cwd: Path) -> subprocess.CompletedProcess[str]:
         contextlib.chdir(cwd),
         contextlib.redirect_stdout(out),
         contextlib.redirect_stderr(err),
-        patch.dict(os.environ, {"COLUMNS": "120", "NO_COLOR": "1"}),
+        environment(COLUMNS="120", NO_COLOR="1", INKLINED_DEBUG=""),
     ):
-        os.environ.pop("INKLINED_DEBUG", None)
         code = run(words)
     finished = subprocess.CompletedProcess(words, code, out.getvalue(), err.getvalue())
     assert "Traceback" not in finished.stdout + finished.stderr
@@ -280,30 +290,29 @@ def test_as_a_process_it_ends_with_the_same_code_and_line(tmp_path):
         assert (alone.returncode, alone.stderr) == (within.returncode, within.stderr)
 
 
-class Failing:
-    """A rival that cannot recognize anything."""
-
+FAILING = """class Failing:
     name = "failing"
     claims = frozenset()
 
-    def __init__(self, error: BaseException) -> None:
-        self.error = error
-
-    def recognize(self, ink):  # noqa: ARG002 - the signature of a recognizer
-        raise self.error
+    def recognize(self, ink):
+        raise {error}
+"""
+"""Somebody's own recognizer that cannot recognize anything."""
 
 
 @pytest.mark.parametrize(
     ("error", "code", "words"),
     [
-        (ZeroDivisionError("by hand"), 70, "ZeroDivisionError: by hand; INKLINED_DEBUG=1 shows where"),
-        (ValueError("of its own"), 70, "INKLINED_DEBUG=1"),
-        (KeyboardInterrupt(), 130, "interrupted"),
-        (OSError(28, "No space left on device", "page.svg"), 1, "page.svg: No space left on device"),
+        ('ZeroDivisionError("by hand")', 70, "ZeroDivisionError: by hand; INKLINED_DEBUG=1 shows where"),
+        ('ValueError("of its own")', 70, "INKLINED_DEBUG=1"),
+        ("KeyboardInterrupt()", 130, "interrupted"),
+        ('OSError(28, "No space left on device", "page.svg")', 1, "page.svg: No space left on device"),
     ],
 )
 def test_whatever_fails_within_is_one_line_and_a_code(error, code, words, tmp_path):
     (tmp_path / "dot.jsonl").write_text('{"label": "tap", "strokes": [[[3, 4, null]]]}\n')
-    with patch.dict(ROSTER, failing=lambda: Failing(error)):
-        line = refusal(inklined("analyze", "dot.jsonl", "--recognizer", "failing", cwd=tmp_path), code)
+    module = f"failing_with_{error.partition('(')[0].lower()}"
+    (tmp_path / f"{module}.py").write_text(FAILING.format(error=error))
+    finished = inklined("analyze", "dot.jsonl", "--recognizer", f"{module}:Failing", cwd=tmp_path)
+    line = refusal(finished, code)
     assert words in line

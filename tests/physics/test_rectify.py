@@ -155,7 +155,7 @@ def test_c2_settles_a_stack_from_the_floor_upwards_so_that_no_pair_undoes_anothe
         top = bottom - 50
     after = rectify(page(parts[::-1])).sketch
     for lower, upper in zip("FABC", "ABCD", strict=True):
-        gap, _ = apart(after.component(lower).shape, after.component(upper).shape)  # type: ignore[arg-type]
+        gap, _ = apart(after.component(lower).shape, after.component(upper).shape)
         assert abs(gap) < 1e-9
 
 

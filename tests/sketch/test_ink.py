@@ -57,7 +57,7 @@ def test_a_stroke_that_no_pen_draws_is_refused(
     points: object, times: object, pressure: object, says: str
 ) -> None:
     with pytest.raises(InkError, match=says):
-        Stroke(points, times, pressure)  # type: ignore[arg-type]
+        Stroke(points, times, pressure)
 
 
 def test_a_dot_equal_times_and_extreme_clocks_are_ink() -> None:
@@ -121,7 +121,7 @@ def test_strokes_differ_by_the_bit() -> None:
 )
 def test_a_shape_that_cannot_be_is_refused(make: object, says: str) -> None:
     with pytest.raises(ShapeError, match=says):
-        make()  # type: ignore[operator]
+        make()
 
 
 @given(shapes)
@@ -131,7 +131,7 @@ def test_an_outline_closes_where_the_shape_does(shape: Shape) -> None:
     if kind_of(shape) in ("circle", "polygon"):
         assert path[0].tolist() == path[-1].tolist()
     else:
-        assert path.tolist() == [list(shape.start), list(shape.end)]  # type: ignore[union-attr]
+        assert path.tolist() == [list(shape.start), list(shape.end)]
     assert pickle.loads(pickle.dumps(shape)) == shape
 
 
@@ -160,7 +160,7 @@ INK = Ink((Stroke([[0, 0]]), Stroke([[1, 1]])))
 )
 def test_a_page_that_contradicts_itself_is_refused(parts: dict[str, tuple[object, ...]], says: str) -> None:
     with pytest.raises(SketchError, match=says):
-        Sketch(INK, **parts)  # type: ignore[arg-type]
+        Sketch(INK, **parts)
 
 
 @settings(max_examples=50, deadline=None)
