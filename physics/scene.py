@@ -11,7 +11,8 @@ what it is given.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import hypot, isfinite, pi
+from math import cos, hypot, isfinite, pi, sin
+from typing import Literal
 
 from physics.formula.program import Program
 
@@ -108,12 +109,22 @@ class SpringLink:
 
 
 @dataclass(frozen=True, slots=True)
+class Pulley:
+    """The fixed disc that a wire runs over without friction, and the sense in which it goes round it
+    on its way from its start to its end."""
+
+    body: str
+    clockwise: bool
+
+
+@dataclass(frozen=True, slots=True)
 class WireLink:
-    """An inextensible wire that may hang slack. rest: its length, m.
+    """An inextensible wire that may hang slack. rest: its length, m, with what lies on a pulley.
 
     tension: the student's, in newtons: it *replaces* the wire's constraint by a pull of that size
     along the wire, and the wire breaks when its length differs from rest by more than
-    `tolerance` (m). None: the engine supplies the true tension, and the wire does not break.
+    `tolerance` (m). None: the engine supplies the true tension. limit: the tension, N, at which the
+    wire breaks; None: it holds whatever comes. over: the pulley that it runs over.
     """
 
     label: str
@@ -122,9 +133,20 @@ class WireLink:
     rest: float
     tension: Program | None = None
     tolerance: float = 0.05
+    limit: float | None = None
+    over: Pulley | None = None
 
 
-Link = SpringLink | WireLink
+@dataclass(frozen=True, slots=True)
+class Pin:
+    """Two points held together, free to turn. Bodies that a pin joins do not collide with each other."""
+
+    label: str
+    start: Anchor
+    end: Anchor
+
+
+Link = SpringLink | WireLink | Pin
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,6 +185,23 @@ class Support:
 
 
 @dataclass(frozen=True, slots=True)
+class Course:
+    """A student's equation of motion for one coordinate of a body's centre, in place of Newton's (row M7).
+
+    position (m): a program of time alone, or None where the student gives the velocity; velocity
+    (m/s) and acceleration (m/s²): as given or derived. A given velocity is integrated once, a given
+    position not at all. It holds until the body collides (row M8).
+    """
+
+    name: str
+    body: str
+    axis: Literal["x", "y"]
+    position: Program | None
+    velocity: Program
+    acceleration: Program
+
+
+@dataclass(frozen=True, slots=True)
 class Scene:
     """Everything that moves, and what moves it. gravity: m/s².
 
@@ -177,20 +216,26 @@ class Scene:
     forces: tuple[Force, ...] = ()
     supports: tuple[Support, ...] = ()
     gravity: Vector = (0.0, -9.81)
+    pins: tuple[Pin, ...] = ()
+    courses: tuple[Course, ...] = ()
 
     def __post_init__(self) -> None:
         _finite("gravity", *self.gravity)
         labels = [body.label for body in self.bodies]
-        links: tuple[Link, ...] = (*self.springs, *self.wires)
+        links: tuple[Link, ...] = (*self.springs, *self.wires, *self.pins)
         everyone = labels + [link.label for link in links]
         twice = {label for label in everyone if everyone.count(label) > 1}
         if twice:
             raise SceneError(f"label {min(twice)!r} is borne twice; labels must be unique")
         for link in links:
             _check_link(link, labels)
+        for wire in self.wires:
+            if wire.over is not None:
+                self._check_pulley(wire, wire.over, labels)
         for act in (*self.forces, *self.supports):
             if act.body not in labels:
                 raise SceneError(f"force {act.name!r} acts on {act.body!r}, which is not there")
+        self._check_courses(labels)
         for support in self.supports:
             if support.on not in labels or support.on == support.body:
                 raise SceneError(
@@ -200,6 +245,40 @@ class Scene:
                 raise SceneError(
                     f"force {support.name!r} stands in for a block; it must name one of its edges"
                 )
+
+    def _check_pulley(self, wire: WireLink, pulley: Pulley, labels: list[str]) -> None:
+        wheel = self.body(pulley.body) if pulley.body in labels else None
+        if wheel is None or not wheel.fixed or not isinstance(wheel.shape, Disc):
+            raise SceneError(f"wire {wire.label!r} runs over {pulley.body!r}; a pulley must be a fixed disc")
+        for anchor in (wire.start, wire.end):
+            if anchor.body == wheel.label:
+                raise SceneError(f"wire {wire.label!r} ends on {wheel.label!r}, the pulley that it runs over")
+            (x, y), (cx, cy) = self._place(anchor), wheel.position
+            if hypot(x - cx, y - cy) <= wheel.shape.radius * (1 - 1e-9):
+                raise SceneError(f"wire {wire.label!r} ends inside {wheel.label!r}, the pulley that it runs over")
+
+    def _place(self, anchor: Anchor) -> Vector:
+        if anchor.body is None:
+            return anchor.point
+        body, (x, y) = self.body(anchor.body), anchor.point
+        c, s = cos(body.angle), sin(body.angle)
+        return body.position[0] + c * x - s * y, body.position[1] + s * x + c * y
+
+    def _check_courses(self, labels: list[str]) -> None:
+        given: set[tuple[str, str]] = set()
+        for course in self.courses:
+            name = f"equation {course.name!r}"
+            if course.body not in labels:
+                raise SceneError(f"{name} moves {course.body!r}, which is not there")
+            if self.body(course.body).fixed:
+                raise SceneError(f"{name} moves {course.body!r}, which is fixed")
+            if (course.body, course.axis) in given:
+                raise SceneError(f"{name} gives {course.body!r} a second {course.axis}; one is enough")
+            given.add((course.body, course.axis))
+            if course.position is not None and any(
+                operation == "read" and operand != 0 for operation, operand in course.position.code
+            ):
+                raise SceneError(f"{name} gives a position, which may depend on the time t alone")
 
     def body(self, label: str) -> Body:
         """The body that bears the label. Raises KeyError when there is none."""
@@ -253,20 +332,25 @@ def _check_shape(name: str, shape: Shape) -> None:
 
 def _check_link(link: Link, labels: list[str]) -> None:
     name = f"link {link.label!r}"
-    _finite(name, link.rest, *link.start.point, *link.end.point)
-    if link.rest <= 0:
-        raise SceneError(f"{name} has length {link.rest:g} m; it must be above zero")
+    _finite(name, *link.start.point, *link.end.point)
     for anchor in (link.start, link.end):
         if anchor.body is not None and anchor.body not in labels:
             raise SceneError(f"{name} is attached to {anchor.body!r}, which is not there")
     if link.start.body == link.end.body:
         raise SceneError(f"{name} has both ends on one body; it must join two")
+    if isinstance(link, Pin):
+        return
+    _finite(name, link.rest)
+    if link.rest <= 0:
+        raise SceneError(f"{name} has length {link.rest:g} m; it must be above zero")
     if isinstance(link, SpringLink):
         _finite(name, link.stiffness, link.damping)
         if link.stiffness < 0 or link.damping < 0:
             raise SceneError(f"{name} has stiffness {link.stiffness:g} N/m; it must not be below zero")
     elif link.tolerance <= 0:
         raise SceneError(f"{name} breaks at a tolerance of {link.tolerance:g} m; it must be above zero")
+    elif link.limit is not None and not 0 <= link.limit < float("inf"):
+        raise SceneError(f"{name} breaks at a tension of {link.limit:g} N; it must not be below zero")
 
 
 def _finite(name: str, *values: float) -> None:
