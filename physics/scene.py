@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from math import cos, hypot, isfinite, pi, sin
 from typing import Literal
 
-from physics.formula.program import Program
+from physics.formula.program import STATE, Program
 
 Vector = tuple[float, float]
 
@@ -236,6 +236,7 @@ class Scene:
             if act.body not in labels:
                 raise SceneError(f"force {act.name!r} acts on {act.body!r}, which is not there")
         self._check_courses(labels)
+        self._check_programs(labels)
         for support in self.supports:
             if support.on not in labels or support.on == support.body:
                 raise SceneError(
@@ -255,7 +256,9 @@ class Scene:
                 raise SceneError(f"wire {wire.label!r} ends on {wheel.label!r}, the pulley that it runs over")
             (x, y), (cx, cy) = self._place(anchor), wheel.position
             if hypot(x - cx, y - cy) <= wheel.shape.radius * (1 - 1e-9):
-                raise SceneError(f"wire {wire.label!r} ends inside {wheel.label!r}, the pulley that it runs over")
+                raise SceneError(
+                    f"wire {wire.label!r} ends inside {wheel.label!r}, the pulley that it runs over"
+                )
 
     def _place(self, anchor: Anchor) -> Vector:
         if anchor.body is None:
@@ -276,9 +279,26 @@ class Scene:
                 raise SceneError(f"{name} gives {course.body!r} a second {course.axis}; one is enough")
             given.add((course.body, course.axis))
             if course.position is not None and any(
-                operation == "read" and operand != 0 for operation, operand in course.position.code
+                operation == "read" and operand % len(STATE) != 0
+                for operation, operand in course.position.code
             ):
                 raise SceneError(f"{name} gives a position, which may depend on the time t alone")
+
+    def _check_programs(self, labels: list[str]) -> None:
+        used: list[tuple[str, Program | None]] = [(wire.label, wire.tension) for wire in self.wires]
+        used += [(force.name, program) for force in self.forces for program in (force.x, force.y)]
+        used += [(support.name, support.force) for support in self.supports]
+        for course in self.courses:
+            used += [(course.name, p) for p in (course.position, course.velocity, course.acceleration)]
+        for name, program in used:
+            if program is None:
+                continue
+            absent = [label for label in program.others if label not in labels]
+            if absent:
+                raise SceneError(f"formula of {name!r} reads the motion of {absent[0]!r}, which is not there")
+            reads = [operand for operation, operand in program.code if operation == "read"]
+            if not all(0 <= operand < len(STATE) * (1 + len(program.others)) for operand in reads):
+                raise SceneError(f"formula of {name!r} reads more than the bodies that it names have")
 
     def body(self, label: str) -> Body:
         """The body that bears the label. Raises KeyError when there is none."""

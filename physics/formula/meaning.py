@@ -172,9 +172,10 @@ def mass_of(sketch: Sketch, meanings: Meanings, component: Component) -> tuple[f
 def constant_of(said: Said, find: Lookup) -> float | None:
     """The value at the start, where the motion's own quantities count as zero; None if there is none."""
     try:
-        value = compile_tree(said.tree, find, said.text).value([0.0] * len(STATE))
+        program = compile_tree(said.tree, find, said.text)
     except ProgramError:
         return None
+    value = program.value([0.0] * (len(STATE) * (1 + len(program.others))))
     return value if value == value else None
 
 

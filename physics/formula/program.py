@@ -24,8 +24,9 @@ STATE: tuple[str, ...] = ("t", "x", "y", "phi", "v_x", "v_y", "v", "omega")
 Node = Any
 """A SymPy tree; SymPy has no types of its own."""
 
-Lookup = Callable[[str], "Node | float | None"]
-"""What a name stands for: a number, another tree, or None when nobody says."""
+Lookup = Callable[[str], "Node | float | Reading | None"]
+"""What a name stands for: a number, another tree, a quantity of another body's motion, or None when
+nobody says."""
 
 DEPTH = 200
 """Deepest nesting that is compiled, definitions included: far beyond handwriting, well within
@@ -37,13 +38,30 @@ class ProgramError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
+class Reading:
+    """What a body (label) has at the moment: one of `STATE`. Raises ProgramError for anything else."""
+
+    quantity: str
+    body: str
+
+    def __post_init__(self) -> None:
+        if self.quantity not in STATE:
+            raise ProgramError(f"{self.quantity} is not read from a motion; {', '.join(STATE)} are")
+
+
+@dataclass(frozen=True, slots=True)
 class Program:
     """text: the formula as its reader knows it; code: (operation, operand) in postfix order;
-    unspecified: names that nobody gave a value, and that count as zero."""
+    unspecified: names that nobody gave a value, and that count as zero; others: labels of further
+    bodies that it reads.
+
+    Operand k of a read is quantity k of its own body's `STATE`; k + j len(STATE) that of others[j - 1].
+    """
 
     text: str
     code: tuple[tuple[str, float], ...]
     unspecified: tuple[str, ...] = ()
+    others: tuple[str, ...] = ()
 
     @property
     def constant(self) -> bool:
@@ -51,13 +69,11 @@ class Program:
         return all(operation != "read" for operation, _ in self.code)
 
     def value(self, state: Sequence[float]) -> float:
-        """The formula's value for values of `STATE`, in that order; NaN where it has none."""
-        code = self.code
-        if len(code) == 1 and code[0][0] == "push":
-            return code[0][1]
+        """The formula's value; NaN where it, or any part of it, has none. state: values of `STATE`, in
+        that order, of its own body and then of each of `others`."""
         try:
             stack: list[float] = []
-            for operation, operand in code:
+            for operation, operand in self.code:
                 if operation == "push":
                     stack.append(operand)
                 elif operation == "read":
@@ -67,9 +83,11 @@ class Program:
                     stack[-1] = BINARY[operation](stack[-1], right)
                 else:
                     stack[-1] = UNARY[operation](stack[-1])
+                if not math.isfinite(stack[-1]):
+                    return math.nan
         except (ArithmeticError, ValueError):
             return math.nan
-        return stack[-1] if math.isfinite(stack[-1]) else math.nan
+        return stack[-1]
 
 
 def constant(value: float, text: str | None = None) -> Program:
@@ -82,15 +100,19 @@ def compile_tree(tree: Node, lookup: Lookup, text: str | None = None) -> Program
 
     Names of `STATE` are read from the motion unless `lookup` says something else of them; others
     are replaced by what `lookup` gives, through any number of definitions; None counts as zero and is
-    listed in `unspecified`. Raises ProgramError for a tree with parts that have no scalar value, or
+    listed in `unspecified`; a `Reading` is read from the motion of the body that it names. Raises ProgramError for a tree with parts that have no scalar value, or
     whose definitions go round in a circle.
     """
-    unspecified: list[str] = []
-    code = _emit(tree, lookup, unspecified, ())
-    return Program(str(tree) if text is None else text, tuple(code), tuple(dict.fromkeys(unspecified)))
+    names = _Names(lookup, {}, {})
+    code = _emit(tree, names, ())
+    return Program(
+        str(tree) if text is None else text, tuple(code), tuple(names.unspecified), tuple(names.others)
+    )
 
 
 def _power(base: float, exponent: float) -> float:
+    if exponent == 2:
+        return base * base
     result = base**exponent
     return result if isinstance(result, float) else math.nan
 
@@ -131,46 +153,63 @@ FUNCTIONS: dict[str, str] = {"Abs": "abs", "norm": "abs", "ln": "log"} | {name: 
 Code = list[tuple[str, float]]
 
 
-def _emit(tree: Node, lookup: Lookup, unspecified: list[str], within: tuple[str, ...]) -> Code:
+@dataclass(frozen=True, slots=True)
+class _Names:
+    """What names stand for, and those found so far that nobody explains, or that are other bodies'; the
+    dictionaries serve as sets that keep their order."""
+
+    lookup: Lookup
+    unspecified: dict[str, None]
+    others: dict[str, None]
+
+    def read(self, reading: Reading) -> Code:
+        self.others.setdefault(reading.body)
+        place = 1 + list(self.others).index(reading.body)
+        return [("read", float(STATE.index(reading.quantity) + place * len(STATE)))]
+
+
+def _emit(tree: Node, names: _Names, within: tuple[str, ...]) -> Code:
     if len(within) > DEPTH:
         raise ProgramError("a formula nested too deeply to be evaluated")
     if isinstance(tree, float) or (getattr(tree, "is_number", False) and not tree.args):
         return [("push", _number(tree))]
     if isinstance(tree, sympy.Symbol):
-        return _name(tree.name, lookup, unspecified, within)
+        return _name(tree.name, names, within)
     inner = (*within, "")
     if isinstance(tree, sympy.Add | sympy.Mul | sympy.Min | sympy.Max):
         operation = {"Add": "add", "Mul": "multiply", "Min": "min", "Max": "max"}[type(tree).__name__]
-        return _fold(operation, [_emit(part, lookup, unspecified, inner) for part in tree.args])
+        return _fold(operation, [_emit(part, names, inner) for part in tree.args])
     if isinstance(tree, sympy.Pow):
         base, exponent = tree.args
-        inside = _emit(base, lookup, unspecified, inner)
+        inside = _emit(base, names, inner)
         if exponent == sympy.Rational(1, 2):
             return _apply("sqrt", inside)
         if exponent == -1:
             return _apply("invert", inside)
-        return _fold("power", [inside, _emit(exponent, lookup, unspecified, inner)])
+        return _fold("power", [inside, _emit(exponent, names, inner)])
     name = type(tree).__name__
     if name == "atan2":
-        return _fold("atan2", [_emit(part, lookup, unspecified, inner) for part in tree.args])
+        return _fold("atan2", [_emit(part, names, inner) for part in tree.args])
     if name in FUNCTIONS and len(tree.args) == 1:
-        return _apply(FUNCTIONS[name], _emit(tree.args[0], lookup, unspecified, inner))
+        return _apply(FUNCTIONS[name], _emit(tree.args[0], names, inner))
     if name == "log" and len(tree.args) == 2:
-        parts = [_apply("log", _emit(part, lookup, unspecified, inner)) for part in tree.args]
+        parts = [_apply("log", _emit(part, names, inner)) for part in tree.args]
         return _fold("multiply", [parts[0], _apply("invert", parts[1])])
     raise ProgramError(f"{tree} has no value that is a single number")
 
 
-def _name(name: str, lookup: Lookup, unspecified: list[str], within: tuple[str, ...]) -> Code:
+def _name(name: str, names: _Names, within: tuple[str, ...]) -> Code:
     if name in within:
         raise ProgramError(f"{name} is defined by itself")
-    meaning = lookup(name)
+    meaning = names.lookup(name)
     if meaning is None and name in STATE:
         return [("read", float(STATE.index(name)))]
     if meaning is None:
-        unspecified.append(name)
+        names.unspecified.setdefault(name)
         return [("push", 0.0)]
-    return _emit(meaning, lookup, unspecified, (*within, name))
+    if isinstance(meaning, Reading):
+        return names.read(meaning)
+    return _emit(meaning, names, (*within, name))
 
 
 def _fold(operation: str, parts: list[Code]) -> Code:

@@ -1,0 +1,80 @@
+"""Kernels: plain functions that numba compiles to machine code once, and keeps on disk.
+
+Numba looks only at the file of a function to tell whether machine code on disk is stale, not at the
+files of the functions that it calls, which are compiled into it. So kernels are kept in a directory
+that is named by a digest of every kernel module: change one, and all are compiled anew. Directories
+of other digests are deleted when the first kernel is made.
+
+Kernel modules are physics/jit.py, physics/formula/kernel.py and physics/engine/*.py. A kernel may
+call and take constants from those alone.
+"""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from contextlib import suppress
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, ClassVar, TypeVar, cast
+
+import numba
+from numba.core.caching import CompileResultCacheImpl, FunctionCache
+
+PREFIX = "inklined-kernels-"
+"""What the directories of compiled kernels are called, before the digest."""
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def kernel(function: F) -> F:
+    """Compiles the function when it is first called with new types of arguments; releases the GIL.
+
+    Division by zero gives inf or NaN as in IEEE 754, nothing is reordered. Where no directory can be
+    written to, it is compiled in every process.
+    """
+    compiled: Any = numba.njit(nogil=True, error_model="numpy", fastmath=False)(function)
+    with suppress(RuntimeError):  # numba found no directory that it may write to
+        compiled._cache = _KernelCache(function)  # what cache=True does, with numba's own class
+        _delete_stale(Path(compiled._cache.cache_path))
+    return cast(F, compiled)
+
+
+@cache
+def digest() -> str:
+    """Of the sources of all kernel modules, twelve hexadecimal digits."""
+    physics = Path(__file__).parent
+    modules = [Path(__file__), physics / "formula" / "kernel.py", *sorted((physics / "engine").glob("*.py"))]
+    hashed = sha256()
+    for module in modules:
+        hashed.update(module.name.encode() + b"\0" + module.read_bytes() + b"\0")
+    return hashed.hexdigest()[:12]
+
+
+class _Digested:
+    """A cache locator of numba's, one directory deeper."""
+
+    def get_cache_path(self) -> str:
+        found = Path(super().get_cache_path())  # pyright: ignore[reportAttributeAccessIssue]: mixed into numba's
+        return str(found / f"{PREFIX}{digest()}")
+
+
+class _KernelCacheImpl(CompileResultCacheImpl):
+    # Numba's own choice: NUMBA_CACHE_DIR, else beside the source, else the user's cache directory.
+    _locator_classes: ClassVar[list[type]] = [
+        type(located.__name__, (_Digested, located), {})
+        for located in CompileResultCacheImpl._locator_classes
+    ]
+
+
+class _KernelCache(FunctionCache):
+    _impl_class = _KernelCacheImpl
+
+
+@cache
+def _delete_stale(kept: Path) -> None:
+    """Another process may still use what is deleted here: it compiles anew then."""
+    for directory in kept.parent.glob(f"{PREFIX}*"):
+        if directory != kept:
+            shutil.rmtree(directory, ignore_errors=True)
