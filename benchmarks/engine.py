@@ -21,6 +21,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from threadpoolctl import threadpool_limits
+
 from engine_cases import Case, cases
 from engine_study import Closeness, Point, closeness, error_and_cost
 from engine_tables import print_closeness, print_error_and_cost
@@ -41,7 +43,12 @@ def main() -> None:
     parser.add_argument("--hertz", type=int, nargs="*", default=list(HERTZ), help="the peers' steps a second")
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
+    with threadpool_limits(limits=1):
+        compare(options)
 
+
+def compare(options: argparse.Namespace) -> None:
+    """The whole run: measured, printed, written."""
     contest = engines(options.only, options.hertz)
     chosen: list[Case] = [case for case in cases() if not options.case or case.name in options.case]
     for engine in contest:  # caches, lazy imports, compilation

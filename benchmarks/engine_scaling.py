@@ -19,6 +19,7 @@ from math import radians
 from pathlib import Path
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from engine_cases import box, disc
 from engine_chain import chain, chain_places
@@ -53,7 +54,8 @@ def main() -> None:
     contest = engines(options.only)
     document: dict[str, dict[str, list[dict[str, float | None]]]] = {}
     for family in SECONDS:
-        costs = measure(family, options.bodies, contest, options.repeats)
+        with threadpool_limits(limits=1):
+            costs = measure(family, options.bodies, contest, options.repeats)
         show(family, costs)
         document[family] = {name: [asdict(cost) for cost in row] for name, row in costs.items()}
     if options.json:
@@ -88,11 +90,11 @@ def scene_of(family: str, count: int) -> Scene:
 
 
 def growth(costs: Sequence[Cost]) -> float:
-    """The exponent p of cost ~ bodiesᵖ for the whole scene, fitted to the logarithms from 4 bodies on: what a
-    step costs however little there is to do would hide it at first. NaN where there are fewer than two."""
-    many = [cost for cost in costs if cost.bodies >= 4]
-    if len(many) < 2:
+    """The exponent p of cost ~ bodiesᵖ for the whole scene, fitted to the logarithms of the three largest: what a
+    step costs however little there is to do hides it at first. NaN for one size alone."""
+    if len(costs) < 2:
         return float("nan")
+    many = sorted(costs, key=lambda cost: cost.bodies)[-3:]
     count = np.array([cost.bodies for cost in many], dtype=float)
     cpu = np.array([cost.cpu for cost in many])
     return float(np.polyfit(np.log(count), np.log(cpu * count), 1)[0])
@@ -101,7 +103,7 @@ def growth(costs: Sequence[Cost]) -> float:
 def show(family: str, costs: dict[str, list[Cost]]) -> None:
     """A table of the family's costs, errors and growth."""
     counts = [cost.bodies for cost in next(iter(costs.values()))]
-    print(f"\n{family}: CPU time, ms a simulated second and body; exponent of growth from 4 bodies on")
+    print(f"\n{family}: CPU time, ms a simulated second and body; exponent of growth over the three largest")
     print(f"{'bodies':12}" + "".join(f"{count:>10}" for count in counts) + f"{'exponent':>10}")
     for name, row in costs.items():
         print(f"{name:12}" + "".join(f"{cost.cpu:10.3f}" for cost in row) + f"{growth(row):10.2f}")
