@@ -57,7 +57,11 @@ class Box2DWorld:
             take(step, VELOCITY_ITERATIONS, POSITION_ITERATIONS)
 
     def places(self) -> list[Triple]:
-        return [(*body.position, body.angle) for body in self._bodies]
+        rows: list[Triple] = []
+        for body in self._bodies:
+            at = body.position  # the package copies it: once, not once for x and once for y
+            rows.append((at.x, at.y, body.angle))
+        return rows
 
     def speeds(self) -> list[Triple]:
         return [(*body.linearVelocity, body.angularVelocity) for body in self._bodies]
