@@ -5,7 +5,7 @@ files of the functions that it calls, which are compiled into it. So kernels are
 that is named by a digest of every kernel module: change one, and all are compiled anew. Directories
 of other digests are deleted when the first kernel is made.
 
-Kernel modules are physics/jit.py, physics/formula/kernel.py and physics/engine/*.py. A kernel may
+Kernel modules are physics/jit.py, physics/formula/kernel.py and physics/engine/**/*.py. A kernel may
 call and take constants from those alone.
 """
 
@@ -45,7 +45,7 @@ def kernel(function: F) -> F:
 def digest() -> str:
     """Of the sources of all kernel modules, twelve hexadecimal digits."""
     physics = Path(__file__).parent
-    modules = [Path(__file__), physics / "formula" / "kernel.py", *sorted((physics / "engine").glob("*.py"))]
+    modules = [Path(__file__), physics / "formula" / "kernel.py", *sorted((physics / "engine").rglob("*.py"))]
     hashed = sha256()
     for module in modules:
         hashed.update(module.name.encode() + b"\0" + module.read_bytes() + b"\0")

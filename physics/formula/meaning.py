@@ -3,21 +3,24 @@
 A table, not code: each entry tells which names a quantity goes by, what can have it, and why
 nothing else can. Quantities are SI, with y up. A name is looked up on the component itself, then
 anywhere on the page, then among what holds everywhere (rows M2-M6).
+
+`x`, `y`, and the pairs `r` and `s`, are metres from where the solid's centre was drawn: right and up.
+An equation for them moves the solid (M7), and so does one for `v_x`, `v_y` or `v` that depends on
+time or on the motion; a velocity that does not, and `v_0` ever, is what it has at the start (M2).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
 import sympy
 
-from physics.formula.program import STATE, Lookup, Node, ProgramError, compile_tree
+from physics.formula.program import Node
 from sketch.formula.parse import expression as read_again
-from sketch.geometry import solid_area
-from sketch.page import Component, Expression, Sketch
-from sketch.shapes import Circle, ComponentKind, Point, Polygon
+from sketch.page import Expression, Sketch
+from sketch.shapes import ComponentKind, Point
 
 Role = Literal[
     "angle",
@@ -26,6 +29,7 @@ Role = Literal[
     "gravity",
     "length",
     "mass",
+    "position",
     "restitution",
     "spin",
     "stiffness",
@@ -33,6 +37,8 @@ Role = Literal[
     "velocity",
     "v_x",
     "v_y",
+    "x",
+    "y",
 ]
 
 SOLIDS: tuple[ComponentKind, ...] = ("circle", "polygon")
@@ -55,6 +61,9 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity("mass", ("m", "m*"), SOLIDS, True, "a mass (kg)"),
     Quantity("friction", ("mu", "mu*"), SOLIDS, True, "a coefficient of friction"),
     Quantity("restitution", ("e",), SOLIDS, True, "a coefficient of restitution"),
+    Quantity("x", ("x",), SOLIDS, False, "a way to the right of where it was drawn (m)"),
+    Quantity("y", ("y",), SOLIDS, False, "a way upwards from where it was drawn (m)"),
+    Quantity("position", ("r", "s"), SOLIDS, False, "a way from where it was drawn (m)"),
     Quantity("v_x", ("v_x", "v_0x"), SOLIDS, True, "a velocity to the right (m/s)"),
     Quantity("v_y", ("v_y", "v_0y"), SOLIDS, True, "a velocity upwards (m/s)"),
     Quantity("velocity", ("v", "v_0"), SOLIDS, True, "a velocity (m/s)"),
@@ -141,113 +150,17 @@ def read(sketch: Sketch) -> Meanings:
         expression = sketch.expressions[index]
         if expression.text is None and expression.tree is None:
             continue
-        definition = _definition(expression, notices)
-        if definition is None:
-            continue
-        name, tree, text = definition
-        for component, anchor in about.get(index, [(None, None)]):
-            said.append(Said(name, component, tree, text, anchor))
+        for name, tree, text in _definitions(expression, notices):
+            for component, anchor in about.get(index, [(None, None)]):
+                said.append(Said(name, component, tree, text, anchor))
     notices += _impossible(sketch, said)
     notices += _twice(said)
     return Meanings(tuple(said), tuple(notices))
 
 
-def mass_of(sketch: Sketch, meanings: Meanings, component: Component) -> tuple[float, str | None]:
-    """(kg, a notice where what the page says of it cannot be). Of a solid of which nothing is said,
-    by its area."""
-    assert isinstance(component.shape, Circle | Polygon)
-    default = DENSITY * solid_area(component.shape) / PER_METRE**2
-    said = meanings.of(component.label, "mass", component.kind)
-    if said is None:
-        return default, None
-    value = constant_of(said, lookup(sketch, meanings, component.label, {}, GRAVITY))
-    if value is None or value <= 0:
-        return (
-            default,
-            f"{said.text} of {component.label}: a mass must be a number above zero; {default:.3g} kg is used.",
-        )
-    return value, None
-
-
-def constant_of(said: Said, find: Lookup) -> float | None:
-    """The value at the start, where the motion's own quantities count as zero; None if there is none."""
-    try:
-        program = compile_tree(said.tree, find, said.text)
-    except ProgramError:
-        return None
-    value = program.value([0.0] * (len(STATE) * (1 + len(program.others))))
-    return value if value == value else None
-
-
-def lookup(
-    sketch: Sketch, meanings: Meanings, component: str | None, masses: Mapping[str, float], g: float
-) -> Lookup:
-    """What names stand for in the formulas of one component.
-
-    masses: of the solids, kg, as far as known; a link's formulas speak of the movable solid at its
-    end. `W` is that weight's size, m g; `m_B` is B's mass whatever the formula is about.
-    """
-    labels = {part.label for part in sketch.components}
-    body = _body_of(sketch, component)
-
-    def find(name: str) -> Node | float | None:
-        if name in STATE:
-            return None
-        base, _, index = name.partition("_")
-        if index in labels and meanings.find(name, component) is None:
-            own = next((s for s in reversed(meanings.said) if s.name == base and s.component == index), None)
-            if own is not None:
-                return own.tree
-            if base in ("m", "W") and index in masses:
-                return masses[index] * (g if base == "W" else 1.0)
-        own = next((s for s in reversed(meanings.said) if s.name == name and s.component == component), None)
-        if own is not None:
-            return own.tree
-        if body is not None and body in masses and name in ("m", "W"):
-            return masses[body] * (g if name == "W" else 1.0)
-        said = meanings.find(name, component)
-        if said is not None:
-            return said.tree
-        return g if name == "g" else None
-
-    return find
-
-
-def split(tree: Node) -> tuple[Node, Node] | None:
-    """The x and y parts of a vector tree; None for a scalar.
-
-    Pairs, the weight W (straight down) and the velocity v are vectors; |W| and ‖v‖ are not. Raises
-    ProgramError where a vector meets what it cannot be added to or multiplied by.
-    """
-    if isinstance(tree, sympy.Tuple):
-        if len(tree.args) != 2:
-            raise ProgramError(f"{tree} has {len(tree.args)} parts; a vector of the plane has two")
-        return tree.args[0], tree.args[1]
-    if isinstance(tree, sympy.Symbol):
-        if tree.name == "W":
-            return sympy.Integer(0), -tree
-        if tree.name == "v":
-            return sympy.Symbol("v_x"), sympy.Symbol("v_y")
-        return None
-    if isinstance(tree, sympy.Add):
-        parts = [split(part) for part in tree.args]
-        if all(part is None for part in parts):
-            return None
-        if any(part is None for part in parts):
-            raise ProgramError(f"{tree} adds a vector to a number")
-        pairs = [part for part in parts if part is not None]
-        return sympy.Add(*(x for x, _ in pairs)), sympy.Add(*(y for _, y in pairs))
-    if isinstance(tree, sympy.Mul):
-        vectors = [part for part in tree.args if split(part) is not None]
-        if not vectors:
-            return None
-        if len(vectors) > 1:
-            raise ProgramError(f"{tree} multiplies two vectors; write which product is meant, or |…|")
-        pair = split(vectors[0])
-        others = [part for part in tree.args if part is not vectors[0]]
-        assert pair is not None
-        return sympy.Mul(*others, pair[0]), sympy.Mul(*others, pair[1])
-    return None
+def names_used(said: Iterable[Said]) -> frozenset[str]:
+    """All names that the formulas of a page read."""
+    return frozenset(str(symbol) for one in said for symbol in getattr(one.tree, "free_symbols", ()))
 
 
 def _goes_by(name: str, pattern: str) -> bool:
@@ -257,8 +170,8 @@ def _goes_by(name: str, pattern: str) -> bool:
     return name == stem or name.startswith(stem + "_")
 
 
-def _definition(expression: Expression, notices: list[str]) -> tuple[str, Node, str] | None:
-    """(name, tree, text) of an equation that says what one name is."""
+def _definitions(expression: Expression, notices: list[str]) -> list[tuple[str, Node, str]]:
+    """(name, tree, text) of each quantity that an equation gives: one, or both of (x, y) = (…, …)."""
     text = expression.text or str(expression.tree)
     tree, problem = expression.tree, expression.problem
     if tree is None and problem is None and expression.text is not None:
@@ -266,20 +179,36 @@ def _definition(expression: Expression, notices: list[str]) -> tuple[str, Node, 
         tree, problem = again.tree, again.problem
     if tree is None:
         notices.append(f"{text!r} is not a formula that can be read: {problem}")
-        return None
+        return []
     if isinstance(tree, sympy.Equality):
         for left, right in (tree.args, tree.args[::-1]):
-            while type(left).__name__ in ("Abs", "norm"):
-                left = left.args[0]
-            if isinstance(left, sympy.Symbol):
-                return left.name, right, text
+            names = _names(left, text)
+            if len(names) == 1:
+                return [(names[0], right, text)]
+            if len(names) > 1 and isinstance(right, sympy.Tuple) and len(right.args) == len(names):
+                return [(name, part, text) for name, part in zip(names, right.args, strict=True)]
     notices.append(f"{text}: this does not say what one quantity is; write it as name = value.")
-    return None
+    return []
+
+
+def _names(side: Node, text: str) -> list[str]:
+    """What one side of an equation names: x, |x|, x(t) or (x, y); nothing if it is anything else."""
+    while type(side).__name__ in ("Abs", "norm"):
+        side = side.args[0]
+    if isinstance(side, sympy.Symbol):
+        return [side.name]
+    if isinstance(side, sympy.Tuple) and all(isinstance(part, sympy.Symbol) for part in side.args):
+        return [str(part) for part in side.args]
+    if isinstance(side, sympy.Mul) and text.partition("=")[0].replace(" ", "").endswith("(t)"):
+        # The parser cannot tell a function of time from a product with it.
+        others = [part for part in side.args if part != sympy.Symbol("t")]
+        return [part.name for part in others if len(side.args) == 2 and isinstance(part, sympy.Symbol)]
+    return []
 
 
 def _impossible(sketch: Sketch, said: list[Said]) -> list[str]:
     """What a thing cannot have (M6), unless a formula of the page uses it as a mere name."""
-    used = {str(symbol) for one in said for symbol in getattr(one.tree, "free_symbols", ())}
+    used = names_used(said)
     notices: list[str] = []
     for one in said:
         kind = None if one.component is None else sketch.component(one.component).kind
@@ -308,15 +237,3 @@ def _twice(said: list[Said]) -> list[str]:
             notices.append(f"{where} is given {before.text} and {one.text}; the newest, {one.text}, is used.")
         newest[one.name, one.component] = one
     return notices
-
-
-def _body_of(sketch: Sketch, component: str | None) -> str | None:
-    """The solid that a component's formulas speak of: itself, or the movable one at a link's end."""
-    if component is None:
-        return None
-    part = sketch.component(component)
-    if part.kind in SOLIDS:
-        return component
-    ends = [sketch.component(end) for end in part.ends if end is not None]
-    movable = [end.label for end in ends if not end.fixed]
-    return movable[0] if movable else None

@@ -17,7 +17,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, pi, sin
 
-from physics.formula.meaning import GRAVITY, Meanings, constant_of, lookup
+from physics.formula.meaning import GRAVITY, Meanings
+from physics.formula.names import constant_of, lookup
 from physics.rectify.correction import Rectified, changes, moved, reshaped, shift, turn
 from sketch.page import Component, Sketch
 from sketch.shapes import Circle, Point, Polygon, Solid, Spring, Wire

@@ -14,7 +14,8 @@ from math import atan2, hypot, pi, radians, tan
 
 import numpy as np
 
-from physics.formula.meaning import GRAVITY, Meanings, constant_of, lookup
+from physics.formula.meaning import GRAVITY, Meanings
+from physics.formula.names import constant_of, lookup
 from physics.rectify.contacts import meant_to_touch
 from physics.rectify.correction import Rectified, changes, moved, reshaped, turn
 from physics.rectify.separation import apart

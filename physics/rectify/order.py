@@ -8,7 +8,8 @@ it went in, and correcting twice is correcting once.
 
 from __future__ import annotations
 
-from physics.formula.meaning import mass_of, read
+from physics.formula.meaning import read
+from physics.formula.names import mass_of
 from physics.rectify.angles import aim
 from physics.rectify.attachments import attach
 from physics.rectify.contacts import touch

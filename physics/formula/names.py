@@ -1,0 +1,96 @@
+"""What names stand for in the formulas of one component, and the values that follow (rows M3-M5)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from physics.formula.meaning import DENSITY, GRAVITY, PER_METRE, SOLIDS, Meanings, Said
+from physics.formula.program import STATE, Lookup, Node, ProgramError, Reading, compile_tree
+from sketch.geometry import solid_area
+from sketch.page import Component, Sketch
+from sketch.shapes import Circle, Polygon
+
+
+def mass_of(sketch: Sketch, meanings: Meanings, component: Component) -> tuple[float, str | None]:
+    """(kg, a notice where what the page says of it cannot be). Of a solid of which nothing is said,
+    by its area."""
+    assert isinstance(component.shape, Circle | Polygon)
+    default = DENSITY * solid_area(component.shape) / PER_METRE**2
+    said = meanings.of(component.label, "mass", component.kind)
+    if said is None:
+        return default, None
+    value = constant_of(said, lookup(sketch, meanings, component.label, {}, GRAVITY))
+    if value is None or value <= 0:
+        return (
+            default,
+            f"{said.text} of {component.label}: a mass must be a number above zero; {default:.3g} kg is used.",
+        )
+    return value, None
+
+
+def constant_of(said: Said, find: Lookup) -> float | None:
+    """The value at the start, where the motion's own quantities count as zero; None if there is none."""
+    try:
+        program = compile_tree(said.tree, find, said.text)
+    except ProgramError:
+        return None
+    value = program.value([0.0] * (len(STATE) * (1 + len(program.others))))
+    return value if value == value else None
+
+
+def lookup(
+    sketch: Sketch, meanings: Meanings, component: str | None, masses: Mapping[str, float], g: float
+) -> Lookup:
+    """What names stand for in the formulas of one component.
+
+    masses: of the solids, kg, as far as known; a link's formulas speak of the movable solid at its
+    end. `W` is that weight's size, m g; `m_B` is B's mass whatever the formula is about; `v_B`, `v_xB`,
+    `v_yB` and `omega_B` are read from B's motion.
+    """
+    labels = {part.label for part in sketch.components}
+    body = solid_of(sketch, component)
+
+    def find(name: str) -> Node | float | Reading | None:
+        if name in STATE:
+            return None
+        motion = _motion_of(name, masses)
+        if motion is not None and meanings.find(name, component) is None:
+            return motion
+        base, _, index = name.partition("_")
+        if index in labels and meanings.find(name, component) is None:
+            own = next((s for s in reversed(meanings.said) if s.name == base and s.component == index), None)
+            if own is not None:
+                return own.tree
+            if base in ("m", "W") and index in masses:
+                return masses[index] * (g if base == "W" else 1.0)
+        own = next((s for s in reversed(meanings.said) if s.name == name and s.component == component), None)
+        if own is not None:
+            return own.tree
+        if body is not None and body in masses and name in ("m", "W"):
+            return masses[body] * (g if name == "W" else 1.0)
+        said = meanings.find(name, component)
+        if said is not None:
+            return said.tree
+        return g if name == "g" else None
+
+    return find
+
+
+def _motion_of(name: str, masses: Mapping[str, float]) -> Reading | None:
+    """What `v_B`, `v_xB`, `v_yB` or `omega_B` reads of solid B."""
+    base, _, index = name.partition("_")
+    if base == "v" and index[:1] in ("x", "y") and index[1:] in masses:
+        return Reading(f"v_{index[0]}", index[1:])
+    return Reading(base, index) if base in ("v", "omega") and index in masses else None
+
+
+def solid_of(sketch: Sketch, component: str | None) -> str | None:
+    """The solid that a component's formulas speak of: itself, or the movable one at a link's end."""
+    if component is None:
+        return None
+    part = sketch.component(component)
+    if part.kind in SOLIDS:
+        return component
+    ends = [sketch.component(end) for end in part.ends if end is not None]
+    movable = [end.label for end in ends if not end.fixed]
+    return movable[0] if movable else None

@@ -1,0 +1,83 @@
+"""The page's springs and wires, between bodies or pinned to the page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import hypot
+from typing import assert_never
+
+from physics.formula.meaning import PER_METRE
+from physics.parts.given import Page, to_metres
+from physics.scene import Anchor, Body, SpringLink, WireLink
+from sketch.page import Component
+from sketch.shapes import Arrow, Circle, Point, Polygon, Spring, Wire
+
+
+@dataclass(frozen=True, slots=True)
+class LinkRule:
+    """What a link is where the page says nothing (row M1), and how true a given tension must be."""
+
+    stiffness: float = 50.0
+    """N/m: a kilogram stretches such a spring by 20 units."""
+    yields: float = 0.05
+    """Share of its length by which a wire under a given tension may be off before it breaks: it
+    forgives a tension rounded to two digits (5√2 as 7.1), not one that is 15 % wrong."""
+
+
+RULE = LinkRule()
+
+
+def links_of(page: Page, bodies: dict[str, Body]) -> tuple[tuple[SpringLink, ...], tuple[WireLink, ...]]:
+    springs: list[SpringLink] = []
+    wires: list[WireLink] = []
+    for part in page.sketch.components:
+        match part.shape:
+            case Spring() | Wire():
+                link = _link(page, part, part.shape, bodies)
+                if isinstance(link, SpringLink):
+                    springs.append(link)
+                elif link is not None:
+                    wires.append(link)
+            case Circle() | Polygon() | Arrow():
+                pass
+            case _:
+                assert_never(part.shape)
+    return tuple(springs), tuple(wires)
+
+
+def _link(
+    page: Page, part: Component, shape: Spring | Wire, bodies: dict[str, Body]
+) -> SpringLink | WireLink | None:
+    """A link with both ends placed. An end that hangs free is pinned to the page where it was drawn:
+    drawn links are meant to hold something, and the page is what they then hold on to."""
+    ends = [end if end in bodies else None for end in part.ends]
+    if ends[0] == ends[1]:
+        page.notices.append(f"{part.label} does not join two things; it is not part of the motion.")
+        return None
+    if None in ends:
+        page.notices.append(
+            f"One end of {part.label} is attached to nothing; it is pinned to the page there."
+        )
+    start, end = (
+        _anchor(place, bodies.get(label or ""))
+        for place, label in zip((shape.start, shape.end), ends, strict=True)
+    )
+    drawn = hypot(shape.end[0] - shape.start[0], shape.end[1] - shape.start[1]) / PER_METRE
+    rest = page.constant(part, "length", 1e-6, 1e6, "a length must be a number above zero") or drawn
+    if isinstance(shape, Spring):
+        stiffness = page.constant(
+            part, "stiffness", 0.0, 1e9, "a stiffness must be a number, and not below zero"
+        )
+        return SpringLink(part.label, start, end, rest, RULE.stiffness if stiffness is None else stiffness)
+    said = page.meanings.of(part.label, "tension", "wire")
+    tension = None if said is None else page.program(said, part.label, said.tree)
+    return WireLink(part.label, start, end, rest, tension, RULE.yields * rest)
+
+
+def _anchor(place: Point, body: Body | None) -> Anchor:
+    x, y = to_metres(place)
+    return (
+        Anchor(None, (x, y))
+        if body is None
+        else Anchor(body.label, (x - body.position[0], y - body.position[1]))
+    )
