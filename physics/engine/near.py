@@ -1,0 +1,113 @@
+"""Contacts of all pairs that are near, kept from substep to substep while two bodies hardly move past each
+other, and with their impulses when they are found anew."""
+
+from __future__ import annotations
+
+from physics.engine.broad import left, sweep
+from physics.engine.crowd import CONTACTS, NEEDS, PAIRS, SWEPT, Crowd
+from physics.engine.manifold import FEATURE, LIFT, PAIR, PN, PT, REALS, WHOLES, meet
+from physics.engine.world import World
+from physics.jit import kernel
+
+MOVED = 1e-3
+"""Share of the smaller body's width by which two bodies move past each other before their contacts are found
+anew: at rest they are found once."""
+
+
+@kernel
+def find(world: World, crowd: Crowd, movable: int, h: float, room: float) -> bool:
+    """Brings pairs and contacts up to date. False, with `NEEDS` set, if the tables are too small."""
+    tally = crowd.tally
+    fresh = tally[SWEPT] == 0 or left(world, movable, crowd.pos, crowd.vel, crowd.home, crowd.room, h)
+    if fresh:
+        found = sweep(
+            world,
+            movable,
+            crowd.pos,
+            crowd.vel,
+            crowd.turns,
+            h,
+            room,
+            crowd.home,
+            crowd.room,
+            crowd.boxes,
+            crowd.order,
+            crowd.table,
+            crowd.near,
+        )
+        if found > len(crowd.near):
+            tally[SWEPT] = 0
+            tally[NEEDS] = found
+            return False
+        tally[PAIRS], tally[SWEPT] = found, 1
+        for q in range(found):
+            crowd.seen[q, 4] = 0.0
+    stale = fresh
+    for q in range(tally[PAIRS]):
+        if _passed(world, crowd, q, h):
+            crowd.seen[q, 4] = 0.0
+            stale = True
+    if stale:
+        _rebuild(world, crowd, h)
+    return True
+
+
+@kernel
+def _passed(world: World, crowd: Crowd, q: int, h: float) -> bool:
+    """Whether the bodies of near pair q may have moved past each other within the next h seconds."""
+    pair = world.pairs[crowd.near[q, 0]]
+    i, j = pair.i, pair.j
+    pos, seen = crowd.pos, crowd.seen
+    moved = abs(pos[j, 0] - pos[i, 0] - seen[q, 0]) + abs(pos[j, 1] - pos[i, 1] - seen[q, 1])
+    moved += abs(pos[i, 2] - seen[q, 2]) * world.reach[i] + abs(pos[j, 2] - seen[q, 3]) * world.reach[j]
+    return moved + h * _speed(world, crowd, i, j) > MOVED * pair.size
+
+
+@kernel
+def _speed(world: World, crowd: Crowd, i: int, j: int) -> float:
+    vel = crowd.vel
+    speed = abs(vel[j, 0] - vel[i, 0]) + abs(vel[j, 1] - vel[i, 1])
+    return speed + abs(vel[i, 2]) * world.reach[i] + abs(vel[j, 2]) * world.reach[j]
+
+
+@kernel
+def _rebuild(world: World, crowd: Crowd, h: float) -> None:
+    real, whole, old_real, old_whole = crowd.real, crowd.whole, crowd.old_real, crowd.old_whole
+    near, seen, pos = crowd.near, crowd.seen, crowd.pos
+    before = crowd.tally[CONTACTS]
+    for k in range(before):
+        for c in range(REALS):
+            old_real[k, c] = real[k, c]
+        for c in range(WHOLES):
+            old_whole[k, c] = whole[k, c]
+    count, old = 0, 0
+    for q in range(crowd.tally[PAIRS]):
+        number = near[q, 0]
+        while old < before and old_whole[old, PAIR] < number:
+            old += 1
+        end = old
+        while end < before and old_whole[end, PAIR] == number:
+            end += 1
+        if seen[q, 4] == 1.0:
+            for k in range(old, end):
+                for c in range(REALS):
+                    real[count, c] = old_real[k, c]
+                for c in range(WHOLES):
+                    whole[count, c] = old_whole[k, c]
+                count += 1
+        else:
+            pair = world.pairs[number]
+            i, j = pair.i, pair.j
+            if pair.support < 0 or world.supports[pair.support].over == 0:
+                margin = 4.0 * MOVED * pair.size + 2.0 * h * _speed(world, crowd, i, j)
+                found = meet(world, number, pos, crowd.turns, margin, real, whole, count)
+                for k in range(count, count + found):
+                    for o in range(old, end):
+                        if old_whole[o, FEATURE] == whole[k, FEATURE]:
+                            real[k, PN], real[k, PT] = old_real[o, PN], old_real[o, PT]
+                            real[k, LIFT] = old_real[o, LIFT]
+                count += found
+            seen[q, 0], seen[q, 1] = pos[j, 0] - pos[i, 0], pos[j, 1] - pos[i, 1]
+            seen[q, 2], seen[q, 3], seen[q, 4] = pos[i, 2], pos[j, 2], 1.0
+        old = end
+    crowd.tally[CONTACTS] = count
