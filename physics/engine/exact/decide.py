@@ -1,0 +1,164 @@
+"""Which rows hold: the complementarity problem of contacts, friction and wires, by an active set.
+
+At the level of accelerations: a contact presses or opens, never both; it sticks while friction can hold
+it, and otherwise slips against its friction. One row changes at a time, the one that is most wrong,
+until none is. Sources: Baraff (1994), Fast contact force computation; Featherstone (2008), ch. 11.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from physics.engine.cells import head
+from physics.engine.exact.integrate import unpack
+from physics.engine.exact.machine import MACHINE, Machine, accelerations, poses, row_of, state, velocities
+from physics.engine.exact.rows import CORD, FREE, GIVEN, OFF, ON, POINT, SLIDE, STICK
+from physics.engine.exact.solve import accelerate, demand
+from physics.engine.exact.touch import TOUCHING
+from physics.engine.tables import WORLD, gravity, masses
+from physics.engine.world import IntArray, Table, World
+from physics.jit import kernel
+from sketch.ink import FloatArray
+
+SLOW = 1e-9
+"""m/s: a slower rate or slip is none."""
+FORCE = 1e-10
+"""Share of the greatest force by which a force may be wrong."""
+WEAK = 1e-9
+"""Share of the greatest acceleration by which an acceleration may be wrong."""
+TRIES = 60
+"""Changes of the set, for each row, before the worst one first gives way to the first one first."""
+
+CLOSE, OPEN, SLIP, HOLD = 1, 2, 3, 4
+
+
+class Undecided(ArithmeticError):
+    """No set of rows was found that fits: more contacts, or tighter jams, than this method is made for."""
+
+
+def decide(world: World, rows: Table, make: Callable[[Table], Machine], time: float) -> Machine:
+    """Sets status and grip of all rows so that forces and accelerations agree; the machine that does it.
+
+    Rows come with a guess: contacts and wires that hold now, and those that no longer do. make: the machine
+    for rows as they are, in the state of this moment. Raises Undecided.
+    """
+    seen: set[bytes] = set()
+    change = np.zeros(2, np.int64)
+    orderly = False
+    for _ in range(TRIES + 4 * len(rows)):
+        machine = make(rows)
+        accelerated(world.cells, machine.cells, time)
+        wrong(world.cells, machine.cells, orderly, change)
+        k, what = int(change[0]), int(change[1])
+        if what == 0:
+            return machine
+        row, found = rows[k], machine.rows[k]
+        if what == CLOSE:
+            row["status"] = ON
+            take_grip(found)
+            row["grip"], row["sigma"] = found["grip"], found["sigma"]
+        elif what == OPEN:
+            row["status"] = OFF
+        elif what == SLIP:
+            row["grip"], row["sigma"] = SLIDE, -np.sign(found["rub"])
+        else:
+            row["grip"] = STICK
+        state = rows["status"].tobytes() + rows["grip"].tobytes() + np.sign(rows["sigma"]).tobytes()
+        if state in seen:
+            if orderly:
+                raise Undecided
+            orderly = True
+            seen.clear()
+        seen.add(state)
+    raise Undecided
+
+
+def take_grip(row: np.void) -> None:
+    """The grip that a contact's slip says it has: it slips, or is held until friction turns out too weak."""
+    if row["mu"] <= 0.0 or row["kind"] == CORD:
+        row["grip"] = FREE
+    elif abs(row["slip"]) > SLOW:
+        row["grip"], row["sigma"] = SLIDE, np.sign(row["slip"])
+    else:
+        row["grip"] = STICK
+
+
+@kernel
+def accelerated(cells: FloatArray, memory: FloatArray, t: float) -> None:
+    """Accelerations and forces of the machine's state."""
+    w, m = head(cells, WORLD), head(memory, MACHINE)
+    unpack(state(m), m.movable, poses(m), velocities(m))
+    accelerate(w, m, t)
+
+
+@kernel
+def quickest(w: Any, m: Any) -> float:
+    """The greatest acceleration about, m/s²."""
+    most = max(1e-12, abs(gravity(w)[0]), abs(gravity(w)[1]))
+    acc = accelerations(m)
+    for i in range(m.movable):
+        for a in range(2):
+            most = max(most, abs(acc[i, a]))
+    for k in range(m.rows):
+        most = max(most, abs(row_of(m, k).c))
+    return most
+
+
+@kernel
+def wrong(cells: FloatArray, memory: FloatArray, orderly: bool, change: IntArray) -> None:
+    """change ← (the row that is most wrong, or, orderly, the first that is; what mends it, 0: none is)."""
+    w, m = head(cells, WORLD), head(memory, MACHINE)
+    mass, g, acc = masses(w), gravity(w), accelerations(m)
+    greatest = 1e-12
+    for i in range(m.movable):
+        for a in range(2):
+            greatest = max(greatest, mass[i, a] * abs(g[a]))
+    for k in range(m.rows):
+        greatest = max(greatest, abs(row_of(m, k).force))
+    swift = quickest(w, m)
+    worst = 1.0
+    change[1] = 0
+    for k in range(m.rows):
+        row = row_of(m, k)
+        size = 0.0
+        what = 0
+        if row.status == OFF:
+            if row.kind <= CORD and row.gap <= TOUCHING and row.rate <= SLOW:
+                size, what = -demand(row, 0, acc) / (WEAK * swift), CLOSE
+        else:
+            if row.kind <= CORD:
+                size, what = -row.force / (FORCE * greatest), OPEN
+            if row.grip != FREE and row.kind != CORD and size <= 1.0:
+                bound = row.bound if row.kind == GIVEN else row.mu * row.force
+                if row.grip == STICK:
+                    size, what = (abs(row.rub) - bound) / (FORCE * greatest), SLIP
+                elif abs(row.slip) <= SLOW:
+                    size, what = -row.sigma * demand(row, 1, acc) / (WEAK * swift), HOLD
+        if size > worst and not (orderly and change[1] != 0):
+            worst = size
+            change[0], change[1] = k, what
+
+
+@kernel
+def pressing(memory: FloatArray) -> None:
+    """Notes for every row how its gap accelerates as things are: below zero, it is pressed shut."""
+    m = head(memory, MACHINE)
+    for k in range(m.rows):
+        row = row_of(m, k)
+        row.press = demand(row, 0, accelerations(m))
+
+
+@kernel
+def leaving(cells: FloatArray, memory: FloatArray, gone: FloatArray) -> None:
+    """gone (rows,) ← 1 for contacts that hold no longer and are about to open: they need not be kept."""
+    w, m = head(cells, WORLD), head(memory, MACHINE)
+    swift = quickest(w, m)
+    for k in range(m.rows):
+        row = row_of(m, k)
+        gone[k] = 0.0
+        if row.kind <= POINT and row.status == OFF:
+            if row.rate > SLOW or demand(row, 0, accelerations(m)) > WEAK * swift:
+                gone[k] = 1.0

@@ -1,0 +1,437 @@
+"""The motion from one event to the next: steps of the length that the accuracy allows, and the moment
+within a step at which something happens, found to rounding.
+
+Moments are first found on the step's dense output, then on true steps of that length, so that the
+state at an event is as good as at any step's end. Frame: SI units, y up.
+"""
+
+from __future__ import annotations
+
+from math import ceil
+from typing import Any
+
+from physics.engine.cells import head, line
+from physics.engine.exact.integrate import between, densify, derive, step, unpack
+from physics.engine.exact.machine import (
+    AT,
+    GREATEST,
+    MACHINE,
+    POWERS,
+    H,
+    T,
+    after,
+    before,
+    candidates,
+    clock,
+    dense_of,
+    forces_of,
+    gaps,
+    hits,
+    kept,
+    newest,
+    olds,
+    poses,
+    recorded,
+    recording,
+    row_of,
+    slope,
+    spans,
+    state,
+    takes,
+    took,
+    velocities,
+)
+from physics.engine.exact.touch import TOUCHING
+from physics.engine.exact.watch import (
+    LENGTH,
+    decisions,
+    excused,
+    pair_gap,
+    quickness,
+    touched,
+    watch,
+)
+from physics.engine.tables import WORLD, gravity, masses, pair_of
+from physics.jit import kernel
+from sketch.ink import FloatArray
+
+REACHED, FULL, HAPPENED, MET, SWITCHED, STOPPED, CRAWLS = 0, 1, 2, 3, 4, 5, 6
+"""Why `flow` came back: the time is reached; the record is full; a watched function crossed zero; two bodies
+meet; a formula takes another branch; a formula has no value; the motion is too fast to follow."""
+
+LONGEST = 0.25
+"""s: the longest step, so that no force dips below zero and returns unseen."""
+SHORTEST = 1e-13
+"""s (a share of the time above 1 s): a step that is no step."""
+SAMPLES = 256
+"""Places within a step at which gaps are looked at, at most."""
+
+
+@kernel
+def begin(cells: FloatArray, memory: FloatArray) -> bool:
+    """Looks at everything at the start of a stretch. False where a formula has no value."""
+    w, m = head(cells, WORLD), head(memory, MACHINE)
+    now = clock(m)
+    fine = derive(w, m, now[T], state(m), slope(m, 0))
+    force, mass, g = forces_of(m), masses(w), gravity(w)
+    greatest = 1e-9
+    for i in range(m.movable):
+        for a in range(2):
+            greatest = max(greatest, abs(force[i, a]), mass[i, a] * abs(g[a]))
+    for k in range(m.rows):
+        greatest = max(greatest, abs(row_of(m, k).force))
+    now[GREATEST] = greatest
+    watch(w, m, greatest, before(m))
+    decisions(w, m, now[T], took(m))
+    return fine
+
+
+@kernel
+def flow(cells: FloatArray, memory: FloatArray, until: float, accuracy: float) -> int:
+    """Steps on until a step ends at `until` or later, or something happens: see the codes above.
+
+    `begin` must have been called for these rows. Steps do not depend on `until`.
+    """
+    w, m = head(cells, WORLD), head(memory, MACHINE)
+    now, done = clock(m), recorded(m)
+    done[0] = 0
+    while True:
+        t = now[T]
+        if t >= until:
+            return REACHED
+        if done[0] == m.capacity:
+            return FULL
+        h = now[H]
+        error = step(w, m, t, h, accuracy)
+        if error > 1.0 or error != error:
+            now[H] = h * (max(0.2, 0.9 * error**-0.125) if error < 1e100 else 0.25)
+            if now[H] < SHORTEST * max(1.0, t):
+                return STOPPED if error > 1e100 or error != error else CRAWLS
+            continue
+        watch(w, m, now[GREATEST], after(m))
+        decisions(w, m, t + h, takes(m))
+        if not densify(w, m, t, h):
+            now[H] = 0.5 * h
+            continue
+        code, share = _first(w, m, t, h)
+        if code == REACHED:
+            now[H] = min(LONGEST, h * (min(5.0, 0.9 * error**-0.125) if error > 1e-8 else 5.0))
+            _accept(m, t, h)
+            for k in range(m.watched):
+                before(m)[k] = after(m)[k]
+            continue
+        share = _sharpen(w, m, code, t, h, share, accuracy)
+        _accept(m, t, share * h)
+        return code
+
+
+@kernel
+def _accept(m: Any, t: float, h: float) -> None:
+    """Records the step just made dense, and makes its end the state."""
+    n = recorded(m)[0]
+    spans(m)[n, 0], spans(m)[n, 1] = t, t + h
+    kept_step, dense = recording(m, n), line(m, m.dense_at, POWERS * m.size)
+    for k in range(POWERS * m.size):
+        kept_step[k] = dense[k]
+    recorded(m)[0] = n + 1
+    clock(m)[T] = t + h
+    y, new, rate, last = state(m), newest(m), slope(m, 0), slope(m, 12)
+    for k in range(m.size):
+        y[k] = new[k]
+        rate[k] = last[k]
+
+
+@kernel
+def _first(w: Any, m: Any, t: float, h: float) -> tuple[int, float]:
+    """What happens first within the step, and at which share of it."""
+    code, share = REACHED, 1.0
+    now = clock(m)
+    for k in range(m.watched):
+        hits(m)[k] = 0
+    for k in range(m.watched):
+        if after(m)[k] < -1.0:
+            when = _crossing(w, m, k, t, h)
+            if when < share - 1e-12:
+                for q in range(k):
+                    hits(m)[q] = 0
+            if when <= share + 1e-12:
+                hits(m)[k] = 1
+                code, share = HAPPENED, min(when, share)
+    for p in range(m.programs):
+        if takes(m)[p] != took(m)[p]:
+            when = _switching(w, m, t, h)
+            if when < share - 1e-12:
+                code, share = SWITCHED, when
+            break
+    met, pair = _meeting(w, m, h, share)
+    if met < share - 1e-12:
+        now[AT] = pair
+        code, share = MET, met
+    if code != HAPPENED:
+        for k in range(m.watched):
+            hits(m)[k] = 0
+    return code, share
+
+
+@kernel
+def _look(w: Any, m: Any, k: int, t: float, h: float, x: float) -> float:
+    """Watched function k at share x of the step, by the dense output. Uses `newest(m)`'s scratch twin."""
+    scratch = slope(m, 1)
+    now = clock(m)
+    between(dense_of(m), x, scratch)
+    derive(w, m, t + x * h, scratch, slope(m, 2))
+    watch(w, m, now[GREATEST], after(m))
+    return after(m)[k]
+
+
+@kernel
+def _crossing(w: Any, m: Any, k: int, t: float, h: float) -> float:
+    """The share of the step at which watched function k crosses zero (or its tolerance, where it begins
+    at zero): the Illinois method. Leaves after(m) as it was."""
+    aim = 0.0 if before(m)[k] > 1.0 else -1.0
+    low, high = 0.0, 1.0
+    above, below = min(before(m)[k], 1e15) - aim, after(m)[k] - aim
+    if above <= 0.0:
+        return 0.0
+    end = kept(m)
+    for q in range(m.watched):
+        end[q] = after(m)[q]
+    side = 0
+    for _ in range(80):
+        x = (low * below - high * above) / (below - above)
+        if not low < x < high or high - low < 1e-15:
+            break
+        value = _look(w, m, k, t, h, x) - aim
+        if value > 0.0:
+            low, above = x, value
+            if side == 1:
+                below *= 0.5
+            side = 1
+        else:
+            high, below = x, value
+            if side == -1:
+                above *= 0.5
+            side = -1
+            if value == 0.0:
+                break
+    for q in range(m.watched):
+        after(m)[q] = end[q]
+    return high
+
+
+@kernel
+def _switching(w: Any, m: Any, t: float, h: float) -> float:
+    """The share of the step just after which a formula takes another branch, by bisection."""
+    low, high = 0.0, 1.0
+    scratch = slope(m, 1)
+    for _ in range(60):
+        x = 0.5 * (low + high)
+        if high - low < 4e-16 * max(1.0, t / h):
+            break
+        between(dense_of(m), x, scratch)
+        unpack(scratch, m.movable, poses(m), velocities(m))
+        decisions(w, m, t + x * h, takes(m))
+        same = True
+        for p in range(m.programs):
+            same = same and takes(m)[p] == took(m)[p]
+        if same:
+            low = x
+        else:
+            high = x
+    return high
+
+
+@kernel
+def _gap(w: Any, m: Any, p: int, joined: bool, x: float) -> float:
+    """The gap of pair p at share x of the step, m."""
+    scratch = slope(m, 1)
+    between(dense_of(m), x, scratch)
+    unpack(scratch, m.movable, poses(m), velocities(m))
+    return pair_gap(w, m, p, joined)
+
+
+@kernel
+def _meeting(w: Any, m: Any, h: float, most: float) -> tuple[float, int]:
+    """(share of the step at which two bodies first meet, at most `most`; the pair); (2, −1) if none do."""
+    n, samples = _candidates(w, m, h)
+    if n == 0:
+        return 2.0, -1
+    scratch = slope(m, 1)
+    first, pair = 2.0, -1
+    last = 0.0
+    for s in range(1, samples + 1):
+        x = s / samples * most
+        between(dense_of(m), x, scratch)
+        unpack(scratch, m.movable, poses(m), velocities(m))
+        for c in range(n):
+            p = candidates(m)[c]
+            gap = pair_gap(w, m, p, touched(m, p))
+            at = 2.0
+            if gap < -LENGTH:
+                at = _meets(w, m, p, last, x)
+            elif (
+                gaps(m)[c] < olds(m)[c] and gaps(m)[c] < gap and gaps(m)[c] < TOUCHING + abs(gap - olds(m)[c])
+            ):
+                at = _grazes(w, m, p, max(last - most / samples, 0.0), x)
+            if at < first:
+                first, pair = at, p
+            olds(m)[c] = gaps(m)[c]
+            gaps(m)[c] = gap
+            between(dense_of(m), x, scratch)
+            unpack(scratch, m.movable, poses(m), velocities(m))
+        if pair >= 0:
+            return first, pair
+        last = x
+    return 2.0, -1
+
+
+@kernel
+def _candidates(w: Any, m: Any, h: float) -> tuple[int, int]:
+    """Lists the pairs that may meet within the step, with their gaps at its start; how many, and how many
+    samples it takes not to miss one."""
+    samples = 4
+    n = 0
+    for p in range(w.pairs):
+        gaps(m)[p] = 0.0
+    scratch = slope(m, 1)
+    for s in range(3):
+        between(dense_of(m), 0.5 * s, scratch)
+        unpack(scratch, m.movable, poses(m), velocities(m))
+        for p in range(w.pairs):
+            gaps(m)[p] = max(gaps(m)[p], quickness(w, m, p))
+    unpack(state(m), m.movable, poses(m), velocities(m))
+    for p in range(w.pairs):
+        pair = pair_of(w, p)
+        way = 1.3 * gaps(m)[p] * h
+        dx, dy = poses(m)[pair.j, 0] - poses(m)[pair.i, 0], poses(m)[pair.j, 1] - poses(m)[pair.i, 1]
+        if way == 0.0 or dx * dx + dy * dy > (pair.reach + way) ** 2 or excused(w, p):
+            continue
+        gap = pair_gap(w, m, p, touched(m, p))
+        if gap > way:
+            continue
+        samples = max(samples, min(SAMPLES, int(ceil(way / (0.25 * pair.size)))))
+        candidates(m)[n] = p
+        gaps(m)[n] = gap
+        olds(m)[n] = gap
+        n += 1
+    return n, samples
+
+
+@kernel
+def _meets(w: Any, m: Any, p: int, low: float, high: float) -> float:
+    """The share between low and high at which the gap of pair p closes; it is closed at high.
+
+    Where it begins closed and opens (a bounce), the beginning is passed by halving towards it.
+    """
+    joined = touched(m, p)
+    below = _gap(w, m, p, joined, high)
+    above = _gap(w, m, p, joined, low)
+    if above <= LENGTH:
+        x = high
+        for _ in range(60):
+            x = low + 0.5 * (x - low)
+            above = _gap(w, m, p, joined, x)
+            if above > 0.0:
+                break
+            high, below = x, above
+        if above <= 0.0:
+            return high
+        low = x
+    side = 0
+    for _ in range(80):
+        x = (low * below - high * above) / (below - above)
+        if not low < x < high or high - low < 1e-15:
+            break
+        value = _gap(w, m, p, joined, x)
+        if value > 0.0:
+            low, above = x, value
+            if side == 1:
+                below *= 0.5
+            side = 1
+        else:
+            high, below = x, value
+            if side == -1:
+                above *= 0.5
+            side = -1
+            if value == 0.0:
+                break
+    return high
+
+
+@kernel
+def _grazes(w: Any, m: Any, p: int, low: float, high: float) -> float:
+    """The same where the gap is open at low and at high and least in between; 2 if it stays open."""
+    joined = touched(m, p)
+    start = low
+    golden = 0.6180339887498949
+    for _ in range(60):
+        one, two = high - golden * (high - low), low + golden * (high - low)
+        first, second = _gap(w, m, p, joined, one), _gap(w, m, p, joined, two)
+        if first < -LENGTH:
+            return _meets(w, m, p, start, one)
+        if second < -LENGTH:
+            return _meets(w, m, p, start, two)
+        if high - low < 1e-9:
+            break
+        if first < second:
+            high = two
+        else:
+            low = one
+    return 2.0
+
+
+@kernel
+def _sharpen(
+    w: Any,
+    m: Any,
+    code: int,
+    t: float,
+    h: float,
+    share: float,
+    accuracy: float,
+) -> float:
+    """Repeats the step with the length at which it happens, until what crosses zero is zero there by the
+    step itself. Leaves newest(m) and dense_of(m) for that step; returns its share."""
+    watched = -1
+    now = clock(m)
+    for k in range(m.watched):
+        if hits(m)[k] and (watched < 0 or before(m)[k] > before(m)[watched]):
+            watched = k
+    aim = 0.0
+    if watched >= 0 and before(m)[watched] <= 1.0:
+        aim = -1.0
+    pair = int(now[AT])
+    joined = code == MET and touched(m, pair)
+    hold = max(share, 1e-15)
+    other, value_other = -1.0, 0.0
+    x = hold
+    for _ in range(6):
+        step(w, m, t, x * h, accuracy)
+        if code == SWITCHED or hold <= 1e-15:
+            break
+        if code == MET:
+            value = pair_gap(w, m, pair, joined) / LENGTH
+        else:
+            watch(w, m, now[GREATEST], after(m))
+            value = after(m)[watched] - aim
+        if abs(value) < 1e-7:
+            break
+        if other < 0.0:
+            # The first slope from a neighbour a thousandth of the step away, by a true step too.
+            other = x * (1.0 - 1e-3)
+            step(w, m, t, other * h, accuracy)
+            if code == MET:
+                value_other = pair_gap(w, m, pair, joined) / LENGTH
+            else:
+                watch(w, m, now[GREATEST], after(m))
+                value_other = after(m)[watched] - aim
+        if value == value_other:
+            break
+        better = x - value * (x - other) / (value - value_other)
+        other, value_other = x, value
+        if not 0.0 < better <= min(1.0, 2.0 * hold) or abs(better - x) < 1e-16:
+            step(w, m, t, x * h, accuracy)
+            break
+        x = better
+    densify(w, m, t, x * h)
+    return x

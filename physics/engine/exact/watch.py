@@ -1,0 +1,150 @@
+"""What may happen within a step: functions of the motion that are above zero until it does.
+
+Rows have three each: a force that may not pull (or a slack wire's slack), a friction that may not
+exceed its bound (or a slip that may not turn), and a place or strength that may not be left. Links and
+given normal forces follow; then the gaps of all pairs, which are watched along the whole step.
+Frame: SI units, y up.
+"""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import Any
+
+from physics.engine.exact import forces
+from physics.engine.exact.machine import poses, row_of, velocities
+from physics.engine.exact.rows import CORD, FACE, GIVEN, ON, POINT, SLIDE, STICK, turned
+from physics.engine.exact.touch import newcomers, separation
+from physics.engine.tables import (
+    branch,
+    corners,
+    counts,
+    firsts,
+    link_of,
+    normals,
+    pair_of,
+    reaches,
+    support_of,
+)
+from physics.engine.world import WIRE, IntArray
+from physics.jit import kernel
+from sketch.ink import FloatArray
+
+NOTHING = 1e300
+SLIP = 1e-9
+"""m/s: slower slip is none."""
+LENGTH = 1e-9
+"""m: how far past its limit a place must be before something has happened; crossings are then located to
+rounding."""
+SHARE = 1e-10
+"""The same of a force, as a share of the greatest one."""
+
+
+@kernel
+def watches(w: Any, rows: int) -> int:
+    """How many functions `watch` fills in, for so many rows."""
+    return 3 * rows + w.links + 2 * w.supports
+
+
+@kernel
+def watch(w: Any, m: Any, greatest: float, seen: FloatArray) -> None:
+    """Values at this moment, for rows as last refreshed and solved, each in units of its tolerance.
+
+    greatest: the greatest force about, N.
+    """
+    pos, vel = poses(m), velocities(m)
+    force_unit = SHARE * greatest
+    for k in range(m.rows):
+        row = row_of(m, k)
+        at = 3 * k
+        seen[at] = seen[at + 1] = seen[at + 2] = NOTHING
+        if row.status != ON:
+            if row.kind <= CORD:
+                seen[at] = row.gap / LENGTH
+            continue
+        if row.kind <= CORD:
+            seen[at] = row.force / force_unit
+        if row.grip == STICK and row.kind != CORD:
+            bound = row.bound if row.kind == GIVEN else row.mu * row.force
+            seen[at + 1] = (bound - abs(row.rub)) / force_unit
+        elif row.grip == SLIDE:
+            seen[at + 1] = row.sigma * row.slip / SLIP
+        if row.kind == FACE:
+            seen[at + 2] = min(row.along, row.length - row.along) / LENGTH
+        elif row.kind == CORD:
+            seen[at + 2] = (link_of(w, row.source).limit - row.force) / force_unit
+        elif row.kind == POINT and counts(w)[row.i] > 0:
+            seen[at + 2] = _round_corner(w, pos, row.i, row.feature, row.j) / LENGTH
+    at = 3 * m.rows
+    for k in range(w.links):
+        link = link_of(w, k)
+        seen[at + k] = NOTHING
+        if link.kind == WIRE and link.tension >= 0 and link.broken == 0:
+            length = forces.ends_of(w, k, pos)[8]
+            seen[at + k] = (link.tolerance - abs(length - link.rest)) / LENGTH
+    at += w.links
+    for k in range(w.supports):
+        support = support_of(w, k)
+        seen[at + 2 * k] = seen[at + 2 * k + 1] = NOTHING
+        if support.over:
+            gap, rate, along = forces.clearance(w, k, pos, vel)
+            if support.length > 0.0:
+                seen[at + 2 * k] = min(along, support.length - along) / LENGTH
+            # Within the skin on its way down, or on its way up until it has risen once.
+            sunk = (gap + support.skin) / LENGTH if rate < 0.0 else NOTHING
+            risen = (support.skin - gap) / LENGTH if support.risen == 0 else NOTHING
+            seen[at + 2 * k + 1] = min(sunk, risen)
+
+
+@kernel
+def _round_corner(w: Any, pos: FloatArray, i: int, feature: int, j: int) -> float:
+    """How far the centre of a disc j on a corner of block i is from coming to lie over a face again, m."""
+    low, n = firsts(w)[i], counts(w)[i]
+    q = low + feature
+    before = q - 1 if feature > 0 else low + n - 1
+    x, y = turned(-pos[i, 2], pos[j, 0] - pos[i, 0], pos[j, 1] - pos[i, 1])
+    dx, dy = x - corners(w)[q, 0], y - corners(w)[q, 1]
+    on_next = -normals(w)[q, 1] * dx + normals(w)[q, 0] * dy
+    on_last = -normals(w)[before, 1] * dx + normals(w)[before, 0] * dy
+    return min(-on_next, on_last)
+
+
+@kernel
+def decisions(w: Any, m: Any, t: float, taken: IntArray) -> None:
+    """Which branches the formulas take at this moment, one number each."""
+    for p in range(w.programs):
+        taken[p] = branch(w, p, t, poses(m), velocities(m))
+
+
+@kernel
+def touched(m: Any, p: int) -> bool:
+    """Whether a pair has rows of contact."""
+    for k in range(m.rows):
+        row = row_of(m, k)
+        if row.source == p and row.kind <= POINT:
+            return True
+    return False
+
+
+@kernel
+def pair_gap(w: Any, m: Any, p: int, joined: bool) -> float:
+    """What is watched of a pair, m: its gap, or where it touches already, that of what does not yet."""
+    i, j = pair_of(w, p).i, pair_of(w, p).j
+    if not joined:
+        return separation(w, poses(m), i, j)
+    return newcomers(w, m, i, j, p)
+
+
+@kernel
+def quickness(w: Any, m: Any, p: int) -> float:
+    """A bound on how fast any points of a pair close, m/s, at this moment."""
+    i, j, vel = pair_of(w, p).i, pair_of(w, p).j, velocities(m)
+    speed = hypot(vel[j, 0] - vel[i, 0], vel[j, 1] - vel[i, 1])
+    return speed + abs(vel[i, 2]) * reaches(w)[i] + abs(vel[j, 2]) * reaches(w)[j]
+
+
+@kernel
+def excused(w: Any, p: int) -> bool:
+    """Whether a given normal force stands in for the contact of a pair."""
+    support = pair_of(w, p).support
+    return support >= 0 and support_of(w, support).over == 1
