@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.engine.world import World
-from physics.jit import kernel
+from physics.jit import part
 from sketch.ink import FloatArray
 
 IntArray = NDArray[np.int64]
@@ -19,8 +19,10 @@ ROOM = 0.2
 lists pairs that never meet."""
 
 
-@kernel
-def left(world: World, movable: int, pos: FloatArray, vel: FloatArray, home: FloatArray, room: FloatArray, h: float) -> bool:
+@part
+def left(
+    world: World, movable: int, pos: FloatArray, vel: FloatArray, home: FloatArray, room: FloatArray, h: float
+) -> bool:
     """Whether a body may leave its box within the next h seconds. home: poses at the last sweep."""
     for i in range(movable):
         moved = abs(pos[i, 0] - home[i, 0]) + abs(pos[i, 1] - home[i, 1])
@@ -30,7 +32,7 @@ def left(world: World, movable: int, pos: FloatArray, vel: FloatArray, home: Flo
     return False
 
 
-@kernel
+@part
 def sweep(
     world: World,
     movable: int,
@@ -84,7 +86,7 @@ def sweep(
     return found
 
 
-@kernel
+@part
 def _box(world: World, i: int, pos: FloatArray, turns: FloatArray, room: float, boxes: FloatArray) -> None:
     radius = world.radius[i]
     x1, x2, y1, y2 = -radius, radius, -radius, radius
@@ -97,7 +99,7 @@ def _box(world: World, i: int, pos: FloatArray, turns: FloatArray, room: float, 
     boxes[i, 2], boxes[i, 3] = pos[i, 1] + y1 - room, pos[i, 1] + y2 + room
 
 
-@kernel
+@part
 def _sort(near: IntArray, count: int) -> None:
     """Shell's sort of the first column (Ciura's gaps, grown by 2.25)."""
     gap = 1

@@ -9,36 +9,64 @@ from __future__ import annotations
 
 from math import hypot, sqrt
 
-from physics.engine.crowd import ACTIVE, ASIDE, CONTACTS, GIVES, GOAL, HEFT, IMPULSE, LEAST, WHEN, Crowd
-from physics.engine.manifold import BOUNCE, GAP, HIT, LIVE, NX, NY, PN, PT, RATE, TARGET, TAU, WN, WT, I, J
+from physics.engine.crowd import (
+    ACTIVE,
+    ASIDE,
+    CONTACTS,
+    GIVES,
+    GOAL,
+    HEFT,
+    IMPULSE,
+    LEAST,
+    WHEN,
+    Crowd,
+)
+from physics.engine.manifold import (
+    BOUNCE,
+    GAP,
+    HIT,
+    LIVE,
+    NX,
+    NY,
+    ONE,
+    OTHER,
+    PN,
+    PT,
+    RATE,
+    TARGET,
+    TAU,
+    WN,
+    WT,
+)
 from physics.engine.rows import CORD
 from physics.engine.soft import haul, opening, press, rate_of, settle
 from physics.engine.world import World
-from physics.jit import kernel
+from physics.jit import part
 from sketch.ink import FloatArray
 
 FAST = 1e-4
 """m/s: what closes more slowly, over what gravity makes in a substep, lands without an impact."""
 ROUNDS = 8
 """Of impacts in consequence of one another within a substep; after them all that still close are dead."""
-SWEEPS = 60
+SWEEPS = 60.0
+"""Rounds of sweeps in one."""
 CLOSE = 1e-11
 """m/s: sweeps of an impact end when no rate changes by more."""
 ROUNDING = 1e-12
 """Share by which rounding may raise the kinetic energy in an impact."""
 
 
-@kernel
-def kinetic(world: World, movable: int, vel: FloatArray) -> float:
+@part
+def kinetic(mass: FloatArray, movable: int, vel: FloatArray) -> float:
     """J."""
     total = 0.0
     for i in range(movable):
         for q in range(3):
-            total += 0.5 * world.mass[i, q] * vel[i, q] ** 2
+            total += 0.5 * mass[i, q] * vel[i, q] ** 2
     return total
 
 
-@kernel
+@part
 def approach(gap: float, rate: float, pull: float, lag: float, h: float) -> tuple[float, float]:
     """(rate at which a gap closes, m/s, zero if it does not within h; when). rate: half a substep `lag` ago;
     pull: how the rate changes, m/s²."""
@@ -52,21 +80,23 @@ def approach(gap: float, rate: float, pull: float, lag: float, h: float) -> tupl
     return last, min(when, h)
 
 
-@kernel
-def strike(world: World, crowd: Crowd, movable: int, h: float, lag: float) -> int:
-    """Gives all that collides within the substep its velocity afterwards; the number of rounds. HIT of a
-    contact becomes the fastest approach, m/s, of those that were struck, else zero."""
+@part
+def strike(world: World, crowd: Crowd, movable: int, h: float, lag: float) -> float:
+    """Gives all that collides within the substep its velocity afterwards; the energy that
+    is lost, J, or −1 if nothing collides. HIT of a contact becomes the fastest approach, m/s, of those that were struck, else zero."""
     vel, real, whole, bars = crowd.vel, crowd.real, crowd.whole, crowd.bars
     contacts, rows = crowd.tally[CONTACTS], len(crowd.rows)
     gx, gy = world.gravity[0], world.gravity[1]
+    acc, since = crowd.acc, crowd.when
     for k in range(contacts):
         real[k, HIT] = 0.0
     rounds = 0
+    energy = kinetic(world.mass, movable, vel)
     while rounds <= ROUNDS:
         struck = False
         for k in range(contacts):
-            pull = opening(crowd, k, crowd.acc)
-            rate, when = approach(real[k, GAP], opening(crowd, k, vel), pull, lag, h)
+            pull = opening(real, whole, k, acc)
+            rate, when = approach(real[k, GAP], opening(real, whole, k, vel), pull, lag, h)
             whole[k, LIVE] = 0
             if rate < -FAST - h * abs(real[k, NX] * gx + real[k, NY] * gy):
                 if not struck and rounds == 0:
@@ -77,14 +107,16 @@ def strike(world: World, crowd: Crowd, movable: int, h: float, lag: float) -> in
                 real[k, RATE], real[k, TAU] = rate, when
                 real[k, TARGET] = -(lag + when) * pull
                 if rounds > 0:
-                    real[k, TAU] = max(when, crowd.when[whole[k, I]], crowd.when[whole[k, J]])
+                    real[k, TAU] = max(when, since[whole[k, ONE]], since[whole[k, OTHER]])
         for k in range(rows):
             row = crowd.rows[k]
-            rate = rate_of(crowd, k, vel)
+            rate = rate_of(crowd.jacobian, crowd.ends, k, vel)
             bars[k, GOAL] = min(rate, 0.0) if bars[k, LEAST] == 0.0 else rate
             bars[k, WHEN] = -1.0
             if row.kind == CORD and bars[k, ACTIVE] == 1.0:
-                rate, when = approach(row.gap, rate, rate_of(crowd, k, crowd.acc), lag, h)
+                rate, when = approach(
+                    row.gap, rate, rate_of(crowd.jacobian, crowd.ends, k, crowd.acc), lag, h
+                )
                 if rate < -FAST - 2.0 * h * (abs(row.c) + hypot(gx, gy)):
                     if not struck and rounds == 0:
                         _begin(crowd)
@@ -101,10 +133,10 @@ def strike(world: World, crowd: Crowd, movable: int, h: float, lag: float) -> in
             bars[k, IMPULSE] = bars[k, ASIDE]
     for k in range(contacts):
         whole[k, LIVE] = 1
-    return rounds
+    return max(energy - kinetic(world.mass, movable, vel), 0.0) if rounds > 0 else -1.0
 
 
-@kernel
+@part
 def _begin(crowd: Crowd) -> None:
     """Keeps the impulses of the last substep aside."""
     real, bars = crowd.real, crowd.bars
@@ -114,13 +146,13 @@ def _begin(crowd: Crowd) -> None:
         bars[k, ASIDE] = bars[k, IMPULSE]
 
 
-@kernel
+@part
 def _solve(world: World, crowd: Crowd, movable: int, lively: bool) -> None:
     """One round. Newton's restitution and friction together can create energy (Kane and Levinson 1985): then
     the round is dead, which never does."""
     vel, real, whole, bars = crowd.vel, crowd.real, crowd.whole, crowd.bars
-    contacts, rows = crowd.tally[CONTACTS], len(crowd.rows)
-    energy = kinetic(world, movable, vel)
+    contacts, rows, inverse = crowd.tally[CONTACTS], len(bars), world.inverse
+    energy = kinetic(world.mass, movable, vel)
     for attempt in range(2):
         for k in range(contacts):
             real[k, PN], real[k, PT] = 0.0, 0.0
@@ -128,24 +160,24 @@ def _solve(world: World, crowd: Crowd, movable: int, lively: bool) -> None:
                 real[k, TARGET] -= real[k, BOUNCE] * real[k, RATE]
         for k in range(rows):
             bars[k, IMPULSE] = 0.0
-        settle(world, crowd, vel, SWEEPS, CLOSE)
-        if not lively or attempt == 1 or kinetic(world, movable, vel) <= energy * (1.0 + ROUNDING):
+        settle(real, whole, bars, crowd.jacobian, crowd.ends, inverse, contacts, vel, SWEEPS, CLOSE)
+        if not lively or attempt == 1 or kinetic(world.mass, movable, vel) <= energy * (1.0 + ROUNDING):
             break
         for k in range(contacts):
             if whole[k, LIVE] == 1:
-                press(world, crowd, k, -real[k, PN], -real[k, PT], vel)
+                press(real, whole, inverse, k, -real[k, PN], -real[k, PT], vel)
                 real[k, TARGET] += real[k, BOUNCE] * real[k, RATE]
         for k in range(rows):
-            haul(world, crowd, k, -bars[k, IMPULSE], vel)
+            haul(crowd.jacobian, crowd.ends, inverse, k, -bars[k, IMPULSE], vel)
     for k in range(contacts):
         if whole[k, LIVE] == 1 and real[k, PN] > 0.0:
             when = real[k, TAU]
-            press(world, crowd, k, -when * real[k, PN], -when * real[k, PT], crowd.shift)
-            crowd.when[whole[k, I]] = max(crowd.when[whole[k, I]], when)
-            crowd.when[whole[k, J]] = max(crowd.when[whole[k, J]], when)
+            press(real, whole, inverse, k, -when * real[k, PN], -when * real[k, PT], crowd.shift)
+            crowd.when[whole[k, ONE]] = max(crowd.when[whole[k, ONE]], when)
+            crowd.when[whole[k, OTHER]] = max(crowd.when[whole[k, OTHER]], when)
     for k in range(rows):
         if bars[k, HEFT] > 0.0 and bars[k, IMPULSE] != 0.0:
             i, j = crowd.rows[k].i, crowd.rows[k].j
             when = bars[k, WHEN] if bars[k, WHEN] >= 0.0 else max(crowd.when[i], crowd.when[j])
-            haul(world, crowd, k, -when * bars[k, IMPULSE], crowd.shift)
+            haul(crowd.jacobian, crowd.ends, inverse, k, -when * bars[k, IMPULSE], crowd.shift)
             bars[k, GIVES] = max(bars[k, GIVES], bars[k, IMPULSE])

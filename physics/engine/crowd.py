@@ -19,13 +19,27 @@ CONTACTS, PAIRS, EVENTS, RECORDS, PRESSED, NEEDS, DONE, STOPPED, STILL, SWEPT = 
 grow; substeps done; the program without a value (−1: none); substeps without any motion; whether the pairs
 were ever swept."""
 
-BUCKLED, GIVES, LEAST, MOST, GOAL, HEFT, IMPULSE, WHEN, ASIDE, ACTIVE = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
+BUCKLED, GIVES, LEAST, MOST, GOAL, HEFT, IMPULSE, WHEN, ASIDE, ACTIVE, OLD, WAY = (
+    0,
+    1,
+    2,
+    3,
+    4,
+    5,
+    6,
+    7,
+    8,
+    9,
+    10,
+    11,
+)
 """Columns of `bars`, one line for each row of `rows`: whether its wire hangs slack; the greatest impulse of impacts in this substep, N s; bounds of its
-impulse, N s; the rate wanted; the mass it meets; impulse; moment of an impact; impulse kept aside; taking part."""
-BARS = 10
+impulse, N s; the rate wanted; the mass it meets; impulse; moment of an impact; impulse kept aside; taking part;
+impulse a round ago, and the direction in which it goes on."""
+BARS = 12
 
-LAST, HEAT = 0, 1
-"""Columns of `reals`: length of the last kick, s; heat of the impacts of this substep, J."""
+LAST = 0
+"""Column of `reals`: length of the last kick, s."""
 
 EVENT = 4
 """An event: time, kind, number, value."""
@@ -69,6 +83,10 @@ class Crowd(NamedTuple):
     bars: FloatArray
     jacobian: FloatArray
     """(rows, 6)."""
+    ends: IntArray
+    """(rows, 2): their bodies."""
+    asked: FloatArray
+    """(given normal forces + courses,): sizes, N, and the next places, m, from the student's programs."""
     motion: FloatArray
     power: FloatArray
     ledger: FloatArray
@@ -126,10 +144,12 @@ def crowd_of(world: World, names: Names, pos: FloatArray, vel: FloatArray, ledge
         rows,
         np.zeros((len(rows), BARS)),
         np.zeros((len(rows), 6)),
+        np.stack([rows["i"], rows["j"]], 1),
+        np.zeros(len(world.supports) + len(world.courses)),
         np.full(bodies, np.inf),
         np.zeros(len(ledger)),
         ledger.copy(),
-        np.zeros(2),
+        np.zeros(1),
         np.array([0, 0, 0, 0, 0, 0, 0, -1, 0, 0], np.int64),
         np.zeros((64, EVENT)),
     )
@@ -167,7 +187,12 @@ def rows_of(world: World) -> Table:
         row = np.zeros((), ROW)
         row["kind"] = GIVEN if support["length"] > 0 else POINT
         row["i"], row["j"], row["source"] = support["j"], support["i"], number
-        row["ax"], row["ay"], row["nx0"], row["ny0"] = support["ax"], support["ay"], support["nx"], support["ny"]
+        row["ax"], row["ay"], row["nx0"], row["ny0"] = (
+            support["ax"],
+            support["ay"],
+            support["nx"],
+            support["ny"],
+        )
         row["ri"], row["rj"] = world.radius[support["j"]], world.radius[support["i"]]
         row["mu"] = support["mu"]
         found.append(row)

@@ -5,7 +5,7 @@ clipped to the face's sides. A disc meets a block on a face or at a corner. A co
 tables, `REALS` columns of numbers and `WHOLES` of integers, and knows its place in the frames of
 both bodies, so that it can be brought up to later poses by `renew`.
 
-Frame: SI units, y up; the normal points from body I to body J.
+Frame: SI units, y up; the normal points from body ONE to body OTHER.
 """
 
 from __future__ import annotations
@@ -16,23 +16,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.engine.world import World
-from physics.jit import kernel
+from physics.jit import part
 from sketch.ink import FloatArray
 
 IntArray = NDArray[np.int64]
 
-I, J, KIND, PAIR, FEATURE, LIVE = 0, 1, 2, 3, 4, 5
+ONE, OTHER, KIND, PAIR, FEATURE, LIVE = 0, 1, 2, 3, 4, 5
 WHOLES = 6
-"""Bodies; on a face of I or from a point of I; the pair; which corner and face; taking part."""
+"""Bodies; on a face of ONE or from a point of it; the pair; which corner and face; taking part."""
 
 AX, AY, BX, BY, MX, MY, RI, RJ, BOUNCE, MU = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
-"""Points in the frames of I and J; the face's normal in I's frame; radii about the points; restitution, friction."""
+"""Points in the frames of both; the face's normal in that of ONE; radii about the points; restitution, friction."""
 NX, NY, CA, CB, TA, TB, KN, KT, GAP, PX, PY = 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20
-"""Normal; levers of normal and tangent about I and J; masses that they meet, kg; gap, m; place, m."""
+"""Normal; levers of normal and tangent about both; masses that they meet, kg; gap, m; place, m."""
 PN, PT, TARGET, WN, WT, RATE, TAU, LIFT, HIT = 21, 22, 23, 24, 25, 26, 27, 28, 29
+EASE, ON, OT, DN, DT = 30, 31, 32, 33, 34
 """Impulses along normal and tangent; the least rate wanted; impulses kept aside; a rate; a time; impulse of
-the push out of overlap, kg m; how fast it was struck, m/s."""
-REALS = 30
+the push out of overlap, kg m; how fast it was struck, m/s;
+1 / mass along the normal; impulses a round ago, and the direction in which they go on."""
+REALS = 35
 
 FACE, POINT = 0, 1
 
@@ -41,9 +43,16 @@ FLUSH = 1e-5
 faces that lie flush take turns."""
 
 
-@kernel
+@part
 def meet(
-    world: World, pair: int, pos: FloatArray, turns: FloatArray, margin: float, real: FloatArray, whole: IntArray, at: int
+    world: World,
+    pair: int,
+    pos: FloatArray,
+    turns: FloatArray,
+    margin: float,
+    real: FloatArray,
+    whole: IntArray,
+    at: int,
 ) -> int:
     """Writes the contacts of a pair whose gap is below `margin` (m) from row `at` on; how many there are.
 
@@ -58,36 +67,34 @@ def meet(
     if world.count[i] == 0 and world.count[j] == 0:
         if hypot(dx, dy) - world.radius[i] - world.radius[j] > margin:
             return 0
-        _put(world, pair, i, j, POINT, 0, real, whole, at)
+        _put(world, pair, i, j, real, whole, at)
         real[at, RI], real[at, RJ] = world.radius[i], world.radius[j]
         return 1
-    if world.count[j] == 0:
-        return _disc_on_block(world, pair, i, j, pos, turns, margin, real, whole, at)
-    if world.count[i] == 0:
-        return _disc_on_block(world, pair, j, i, pos, turns, margin, real, whole, at)
+    if world.count[i] == 0 or world.count[j] == 0:
+        one, other = (i, j) if world.count[j] == 0 else (j, i)
+        return _disc_on_block(world, pair, one, other, pos, turns, margin, real, whole, at)
     gap_i, face_i = _widest(world, i, j, pos, turns, margin)
     if gap_i > margin:
         return 0
     gap_j, face_j = _widest(world, j, i, pos, turns, margin)
     if gap_j > margin:
         return 0
+    one, other, face = i, j, face_i
     if gap_j > gap_i + FLUSH:
-        return _clip(world, pair, j, i, face_j, 1, pos, turns, margin, real, whole, at)
-    return _clip(world, pair, i, j, face_i, 0, pos, turns, margin, real, whole, at)
+        one, other, face = j, i, face_j
+    return _clip(world, pair, one, other, face, pos, turns, margin, real, whole, at)
 
 
-@kernel
-def _put(
-    world: World, pair: int, i: int, j: int, kind: int, feature: int, real: FloatArray, whole: IntArray, at: int
-) -> None:
-    whole[at, I], whole[at, J], whole[at, KIND] = i, j, kind
-    whole[at, PAIR], whole[at, FEATURE], whole[at, LIVE] = pair, feature, 1
+@part
+def _put(world: World, pair: int, i: int, j: int, real: FloatArray, whole: IntArray, at: int) -> None:
+    whole[at, ONE], whole[at, OTHER], whole[at, KIND] = i, j, POINT
+    whole[at, PAIR], whole[at, FEATURE], whole[at, LIVE] = pair, -1, 1
     for k in range(REALS):
         real[at, k] = 0.0
     real[at, BOUNCE], real[at, MU] = world.pairs[pair].e, world.pairs[pair].mu
 
 
-@kernel
+@part
 def _disc_on_block(
     world: World,
     pair: int,
@@ -107,7 +114,9 @@ def _disc_on_block(
     first, count = world.first[i], world.count[i]
     best, face = -1e300, first
     for k in range(first, first + count):
-        gap = world.normals[k, 0] * (x - world.corners[k, 0]) + world.normals[k, 1] * (y - world.corners[k, 1])
+        gap = world.normals[k, 0] * (x - world.corners[k, 0]) + world.normals[k, 1] * (
+            y - world.corners[k, 1]
+        )
         if gap > best:
             best, face = gap, k
     if best - radius > margin:
@@ -121,15 +130,16 @@ def _disc_on_block(
         x1, y1 = world.corners[face, 0], world.corners[face, 1]
         if hypot(x - x1, y - y1) - radius > margin:
             return 0
-        _put(world, pair, i, j, POINT, -1, real, whole, at)
+        _put(world, pair, i, j, real, whole, at)
     else:
-        _put(world, pair, i, j, FACE, face, real, whole, at)
+        _put(world, pair, i, j, real, whole, at)
+        whole[at, KIND], whole[at, FEATURE] = FACE, face
         real[at, MX], real[at, MY] = nx, ny
     real[at, AX], real[at, AY], real[at, RJ] = x1, y1, radius
     return 1
 
 
-@kernel
+@part
 def _widest(
     world: World, i: int, j: int, pos: FloatArray, turns: FloatArray, margin: float
 ) -> tuple[float, int]:
@@ -153,14 +163,13 @@ def _widest(
     return best, face
 
 
-@kernel
+@part
 def _clip(
     world: World,
     pair: int,
     i: int,
     j: int,
     face: int,
-    side: int,
     pos: FloatArray,
     turns: FloatArray,
     margin: float,
@@ -182,7 +191,12 @@ def _clip(
             most, start = facing, q
     end = start + 1 if start + 1 < first + count else first
     x1, y1 = world.corners[face, 0], world.corners[face, 1]
-    ax, ay, bx, by = world.corners[start, 0], world.corners[start, 1], world.corners[end, 0], world.corners[end, 1]
+    ax, ay, bx, by = (
+        world.corners[start, 0],
+        world.corners[start, 1],
+        world.corners[end, 0],
+        world.corners[end, 1],
+    )
     # Both ends of the edge in i's frame, along the face (anti-clockwise) and out of it.
     sx, sy = x + c * ax - s * ay - x1, y + s * ax + c * ay - y1
     ex, ey = x + c * bx - s * by - x1, y + s * bx + c * by - y1
@@ -197,19 +211,20 @@ def _clip(
         if share < 0.0 or share > 1.0 or d1 + share * (d2 - d1) > margin:
             continue
         row = at + found
-        _put(world, pair, i, j, FACE, 4 * face + 2 * side + slot, real, whole, row)
+        _put(world, pair, i, j, real, whole, row)
+        whole[row, KIND], whole[row, FEATURE] = FACE, 2 * face + slot
         real[row, AX], real[row, AY], real[row, MX], real[row, MY] = x1, y1, nx, ny
         real[row, BX], real[row, BY] = ax + share * (bx - ax), ay + share * (by - ay)
         found += 1
     return found
 
 
-@kernel
+@part
 def renew(
     k: int, pos: FloatArray, turns: FloatArray, inverse: FloatArray, real: FloatArray, whole: IntArray
 ) -> None:
     """Brings contact k up to these poses: gap, normal, levers, masses."""
-    i, j = whole[k, I], whole[k, J]
+    i, j = whole[k, ONE], whole[k, OTHER]
     ci, si, cj, sj = turns[i, 0], turns[i, 1], turns[j, 0], turns[j, 1]
     ax, ay = ci * real[k, AX] - si * real[k, AY], si * real[k, AX] + ci * real[k, AY]
     bx, by = cj * real[k, BX] - sj * real[k, BY], sj * real[k, BX] + cj * real[k, BY]
@@ -234,5 +249,15 @@ def renew(
     aside = ny * ny * mx + nx * nx * my + ta * ta * wi + tb * tb * wj
     real[k, NX], real[k, NY], real[k, CA], real[k, CB], real[k, TA], real[k, TB] = nx, ny, ca, cb, ta, tb
     real[k, KN] = 1.0 / light if light > 0.0 else 0.0
+    real[k, EASE] = light
     real[k, KT] = 1.0 / aside if aside > 0.0 else 0.0
     real[k, GAP], real[k, PX], real[k, PY] = gap, pos[j, 0] + bx - rj * nx, pos[j, 1] + by - rj * ny
+
+
+@part
+def renew_all(
+    count: int, pos: FloatArray, turns: FloatArray, inverse: FloatArray, real: FloatArray, whole: IntArray
+) -> None:
+    """`renew` for every contact."""
+    for k in range(count):
+        renew(k, pos, turns, inverse, real, whole)

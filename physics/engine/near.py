@@ -3,18 +3,26 @@ other, and with their impulses when they are found anew."""
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
 from physics.engine.broad import left, sweep
 from physics.engine.crowd import CONTACTS, NEEDS, PAIRS, SWEPT, Crowd
 from physics.engine.manifold import FEATURE, LIFT, PAIR, PN, PT, REALS, WHOLES, meet
 from physics.engine.world import World
-from physics.jit import kernel
+from physics.jit import part
+from sketch.ink import FloatArray
+
+IntArray = NDArray[np.int64]
 
 MOVED = 1e-3
 """Share of the smaller body's width by which two bodies move past each other before their contacts are found
 anew: at rest they are found once."""
 
 
-@kernel
+@part
 def find(world: World, crowd: Crowd, movable: int, h: float, room: float) -> bool:
     """Brings pairs and contacts up to date. False, with `NEEDS` set, if the tables are too small."""
     tally = crowd.tally
@@ -42,45 +50,57 @@ def find(world: World, crowd: Crowd, movable: int, h: float, room: float) -> boo
         tally[PAIRS], tally[SWEPT] = found, 1
         for q in range(found):
             crowd.seen[q, 4] = 0.0
-    stale = fresh
-    for q in range(tally[PAIRS]):
-        if _passed(world, crowd, q, h):
-            crowd.seen[q, 4] = 0.0
-            stale = True
-    if stale:
+    if (
+        _passed(world.pairs, world.reach, crowd.near, crowd.seen, tally[PAIRS], crowd.pos, crowd.vel, h)
+        or fresh
+    ):
         _rebuild(world, crowd, h)
     return True
 
 
-@kernel
-def _passed(world: World, crowd: Crowd, q: int, h: float) -> bool:
-    """Whether the bodies of near pair q may have moved past each other within the next h seconds."""
-    pair = world.pairs[crowd.near[q, 0]]
-    i, j = pair.i, pair.j
-    pos, seen = crowd.pos, crowd.seen
-    moved = abs(pos[j, 0] - pos[i, 0] - seen[q, 0]) + abs(pos[j, 1] - pos[i, 1] - seen[q, 1])
-    moved += abs(pos[i, 2] - seen[q, 2]) * world.reach[i] + abs(pos[j, 2] - seen[q, 3]) * world.reach[j]
-    return moved + h * _speed(world, crowd, i, j) > MOVED * pair.size
+@part
+def _passed(
+    pairs: Any,
+    reach: FloatArray,
+    near: IntArray,
+    seen: FloatArray,
+    count: int,
+    pos: FloatArray,
+    vel: FloatArray,
+    h: float,
+) -> bool:
+    """Marks the near pairs whose bodies may have moved past each other within the next h seconds; whether
+    there are any."""
+    stale = False
+    for q in range(count):
+        pair = pairs[near[q, 0]]
+        i, j = pair.i, pair.j
+        moved = abs(pos[j, 0] - pos[i, 0] - seen[q, 0]) + abs(pos[j, 1] - pos[i, 1] - seen[q, 1])
+        moved += abs(pos[i, 2] - seen[q, 2]) * reach[i] + abs(pos[j, 2] - seen[q, 3]) * reach[j]
+        if moved + h * _speed(reach, vel, i, j) > MOVED * pair.size:
+            seen[q, 4] = 0.0
+            stale = True
+    return stale
 
 
-@kernel
-def _speed(world: World, crowd: Crowd, i: int, j: int) -> float:
-    vel = crowd.vel
+@part
+def _speed(reach: FloatArray, vel: FloatArray, i: int, j: int) -> float:
     speed = abs(vel[j, 0] - vel[i, 0]) + abs(vel[j, 1] - vel[i, 1])
-    return speed + abs(vel[i, 2]) * world.reach[i] + abs(vel[j, 2]) * world.reach[j]
+    return speed + abs(vel[i, 2]) * reach[i] + abs(vel[j, 2]) * reach[j]
 
 
-@kernel
+@part
 def _rebuild(world: World, crowd: Crowd, h: float) -> None:
     real, whole, old_real, old_whole = crowd.real, crowd.whole, crowd.old_real, crowd.old_whole
-    near, seen, pos = crowd.near, crowd.seen, crowd.pos
+    near, seen, pos, turns, pairs = crowd.near, crowd.seen, crowd.pos, crowd.turns, world.pairs
     before = crowd.tally[CONTACTS]
     for k in range(before):
         for c in range(REALS):
             old_real[k, c] = real[k, c]
         for c in range(WHOLES):
             old_whole[k, c] = whole[k, c]
-    count, old = 0, 0
+    # Numba would compile `meet` anew for a count that it knows to be zero.
+    count, old = 0 * before, 0
     for q in range(crowd.tally[PAIRS]):
         number = near[q, 0]
         while old < before and old_whole[old, PAIR] < number:
@@ -96,11 +116,11 @@ def _rebuild(world: World, crowd: Crowd, h: float) -> None:
                     whole[count, c] = old_whole[k, c]
                 count += 1
         else:
-            pair = world.pairs[number]
+            pair = pairs[number]
             i, j = pair.i, pair.j
             if pair.support < 0 or world.supports[pair.support].over == 0:
-                margin = 4.0 * MOVED * pair.size + 2.0 * h * _speed(world, crowd, i, j)
-                found = meet(world, number, pos, crowd.turns, margin, real, whole, count)
+                margin = 4.0 * MOVED * pair.size + 2.0 * h * _speed(world.reach, crowd.vel, i, j)
+                found = meet(world, number, pos, turns, margin, real, whole, count)
                 for k in range(count, count + found):
                     for o in range(old, end):
                         if old_whole[o, FEATURE] == whole[k, FEATURE]:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from physics.engine.acts import Act, applied
+from physics.engine.broad import ROOM
 from physics.engine.crowd import (
     DONE,
     EVENTS,
@@ -29,7 +30,6 @@ from physics.engine.crowd import (
 )
 from physics.engine.forces import ledger_size
 from physics.engine.pace import ASLEEP, run
-from physics.engine.broad import ROOM
 from physics.engine.shown import contact_acts, joint_acts
 from physics.engine.told import told, whose
 from physics.engine.world import SPRING, Names, World
@@ -102,7 +102,8 @@ class RobustRun:
     @property
     def events(self) -> list[Event]:
         """What happened up to `time`, in order of time."""
-        found = [event for _, event in self.noted if event.time <= self.time + 1e-9]
+        until = np.inf if self.stopped else self.time + 1e-9
+        found = [event for _, event in self.noted if event.time <= until]
         return sorted(found, key=lambda event: event.time)
 
     def advance(self, until: float) -> None:
@@ -228,15 +229,13 @@ class RobustRun:
             # As much as the records to come will need, if contacts stay as many as they are.
             last = pressed - int(record.ends[self._records() - 2]) if self._records() > 1 else 0
             grown = pressed + len(crowd.near) * 4 + (len(record.pos) - self._records()) * (last + 1)
-            record = record._replace(
-                forces=_grown(record.forces, grown), pairs=_grown(record.pairs, grown)
-            )
+            record = record._replace(forces=_grown(record.forces, grown), pairs=_grown(record.pairs, grown))
         self.record = record
 
     def _tell(self) -> None:
         crowd = self.crowd
         for row in crowd.events[: int(crowd.tally[EVENTS])]:
-            time, kind, number, size = float(row[0]), int(row[1]), int(row[2]), float(row[3])
+            time, kind, number, size = float(row[0]), float(row[1]), int(row[2]), float(row[3])
             event, over = told(self.world, self.names, time, kind, number, size)
             self.noted.append((time, event))
             if over is not None:

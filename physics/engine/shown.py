@@ -76,6 +76,8 @@ def contact_acts(world: World, names: Names, record: Record, at: IntArray, pos: 
     frames = np.repeat(np.arange(len(at)), many)
     chosen = np.repeat(start - np.cumsum(many) + many, many) + np.arange(int(many.sum()))
     pairs, forces = record.pairs[chosen], record.forces[chosen]
+    if not len(pairs):
+        return []
     unique = _settled(world, names, pairs, frames)
     acts: list[Act] = []
     order = np.argsort(pairs, kind="stable")
@@ -88,7 +90,10 @@ def contact_acts(world: World, names: Names, record: Record, at: IntArray, pos: 
         ):
             points = pos[:, body, :2].copy()
             points[frames[mine]] = forces[mine, 4:6]
-            for name, part in ((f"contact with {names.bodies[other]}", 0), (f"friction of {names.bodies[other]}", 2)):
+            for name, part in (
+                (f"contact with {names.bodies[other]}", 0),
+                (f"friction of {names.bodies[other]}", 2),
+            ):
                 if part == 2 and pair["mu"] == 0:
                     continue
                 values = np.zeros((len(at), 2))
@@ -100,8 +105,6 @@ def contact_acts(world: World, names: Names, record: Record, at: IntArray, pos: 
 def _settled(world: World, names: Names, pairs: NDArray[np.int32], frames: IntArray) -> bool:
     """Whether unknown forces are never more than equations: three for each body, against one for a disc's
     contact, two for that of two blocks, and one for friction."""
-    if not len(pairs):
-        return True
     table = world.pairs
     blocks = (world.count[table["i"]] > 0) & (world.count[table["j"]] > 0)
     unknown = 1 + blocks.astype(np.int64) + (table["mu"] > 0)

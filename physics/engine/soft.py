@@ -20,14 +20,17 @@ from physics.engine.crowd import (
     IMPULSE,
     LEAST,
     MOST,
+    OLD,
+    WAY,
     Crowd,
 )
 from physics.engine.manifold import (
     CA,
     CB,
+    DN,
+    DT,
+    EASE,
     GAP,
-    I,
-    J,
     KN,
     KT,
     LIFT,
@@ -35,16 +38,20 @@ from physics.engine.manifold import (
     MU,
     NX,
     NY,
+    ON,
+    ONE,
+    OT,
+    OTHER,
     PN,
     PT,
     TA,
     TARGET,
     TB,
-    renew,
+    renew_all,
 )
 from physics.engine.rows import CORD, GIVEN, POINT, refresh
 from physics.engine.world import World
-from physics.jit import kernel
+from physics.jit import part
 from sketch.ink import FloatArray
 
 IntArray = NDArray[np.int64]
@@ -54,17 +61,18 @@ PUSH_RATE = 9.0
 ratio 10 at 240 Hz."""
 PUSH_SPEED = 1.0
 """m/s: however deep it is."""
-SLOP = 1e-9
-"""m: overlap that is left as it is."""
+SLOP = 1e-6
+"""m: overlap that is left as it is, and far below what can be seen."""
+SMALL, ENOUGH = 1e-7, 6.0
+"""m/s: smaller changes need no more than so many rounds; at rest the next substep goes on where this one ended."""
 PUSHES = 4
 """Sweeps over the pushes, which start from those of the last substep."""
 
 
-@kernel
+@part
 def bring_up(world: World, crowd: Crowd) -> None:
     """Contacts and rows at the poses of now."""
-    for k in range(crowd.tally[CONTACTS]):
-        renew(k, crowd.pos, crowd.turns, world.inverse, crowd.real, crowd.whole)
+    renew_all(crowd.tally[CONTACTS], crowd.pos, crowd.turns, world.inverse, crowd.real, crowd.whole)
     for k in range(len(crowd.rows)):
         row = crowd.rows[k]
         refresh(row, world, crowd.pos, crowd.now)
@@ -83,10 +91,10 @@ def bring_up(world: World, crowd: Crowd) -> None:
         crowd.bars[k, ACTIVE] = 1.0 if active else 0.0
 
 
-@kernel
-def opening(crowd: Crowd, k: int, vel: FloatArray) -> float:
+@part
+def opening(real: FloatArray, whole: IntArray, k: int, vel: FloatArray) -> float:
     """How fast contact k's gap opens, m/s."""
-    real, i, j = crowd.real, crowd.whole[k, I], crowd.whole[k, J]
+    i, j = whole[k, ONE], whole[k, OTHER]
     return (
         real[k, NX] * (vel[j, 0] - vel[i, 0])
         + real[k, NY] * (vel[j, 1] - vel[i, 1])
@@ -95,22 +103,18 @@ def opening(crowd: Crowd, k: int, vel: FloatArray) -> float:
     )
 
 
-@kernel
-def slipping(crowd: Crowd, k: int, vel: FloatArray) -> float:
-    """How fast contact k slips, m/s."""
-    real, i, j = crowd.real, crowd.whole[k, I], crowd.whole[k, J]
-    return (
-        real[k, NX] * (vel[j, 1] - vel[i, 1])
-        - real[k, NY] * (vel[j, 0] - vel[i, 0])
-        + real[k, TB] * vel[j, 2]
-        - real[k, TA] * vel[i, 2]
-    )
-
-
-@kernel
-def press(world: World, crowd: Crowd, k: int, normal: float, tangent: float, vel: FloatArray) -> None:
+@part
+def press(
+    real: FloatArray,
+    whole: IntArray,
+    inverse: FloatArray,
+    k: int,
+    normal: float,
+    tangent: float,
+    vel: FloatArray,
+) -> None:
     """Applies impulses along normal and tangent of contact k."""
-    real, inverse, i, j = crowd.real, world.inverse, crowd.whole[k, I], crowd.whole[k, J]
+    i, j = whole[k, ONE], whole[k, OTHER]
     x = real[k, NX] * normal - real[k, NY] * tangent
     y = real[k, NY] * normal + real[k, NX] * tangent
     vel[i, 0] -= inverse[i, 0] * x
@@ -121,104 +125,177 @@ def press(world: World, crowd: Crowd, k: int, normal: float, tangent: float, vel
     vel[j, 2] += inverse[j, 2] * (real[k, CB] * normal + real[k, TB] * tangent)
 
 
-@kernel
-def rate_of(crowd: Crowd, k: int, vel: FloatArray) -> float:
+@part
+def rate_of(jacobian: FloatArray, ends: IntArray, k: int, vel: FloatArray) -> float:
     """The rate of row k: of its slack, of a pin's gap, of slip."""
-    jacobian, i, j = crowd.jacobian, crowd.rows[k].i, crowd.rows[k].j
+    i, j = ends[k, 0], ends[k, 1]
     rate = 0.0
     for q in range(3):
         rate += jacobian[k, q] * vel[i, q] + jacobian[k, 3 + q] * vel[j, q]
     return rate
 
 
-@kernel
-def haul(world: World, crowd: Crowd, k: int, impulse: float, vel: FloatArray) -> None:
+@part
+def haul(
+    jacobian: FloatArray, ends: IntArray, inverse: FloatArray, k: int, impulse: float, vel: FloatArray
+) -> None:
     """Applies an impulse along row k."""
-    jacobian, inverse, i, j = crowd.jacobian, world.inverse, crowd.rows[k].i, crowd.rows[k].j
+    i, j = ends[k, 0], ends[k, 1]
     for q in range(3):
         vel[i, q] += inverse[i, q] * jacobian[k, q] * impulse
         vel[j, q] += inverse[j, q] * jacobian[k, 3 + q] * impulse
 
 
-@kernel
-def settle(world: World, crowd: Crowd, vel: FloatArray, sweeps: int, tolerance: float) -> int:
-    """Sweeps until no rate changes by more than the tolerance, m/s, at most so often; how often."""
-    real, whole, bars = crowd.real, crowd.whole, crowd.bars
-    contacts, rows = crowd.tally[CONTACTS], len(crowd.rows)
-    for turn in range(sweeps):
+@part
+def _sweep(
+    real: FloatArray,
+    whole: IntArray,
+    bars: FloatArray,
+    jacobian: FloatArray,
+    ends: IntArray,
+    inverse: FloatArray,
+    contacts: int,
+    vel: FloatArray,
+    back: int,
+) -> float:
+    """Once over all rows and contacts; the greatest change of a rate, m/s."""
+    change = 0.0
+    rows = len(bars)
+    for step in range(rows):
+        k = rows - 1 - step if back == 1 else step
+        heft = bars[k, HEFT]
+        if bars[k, ACTIVE] == 0.0 or heft == 0.0:
+            continue
+        wanted = bars[k, IMPULSE] - (rate_of(jacobian, ends, k, vel) - bars[k, GOAL]) * heft
+        wanted = min(max(wanted, bars[k, LEAST]), bars[k, MOST])
+        more = wanted - bars[k, IMPULSE]
+        if more != 0.0:
+            bars[k, IMPULSE] = wanted
+            haul(jacobian, ends, inverse, k, more, vel)
+            change = max(change, abs(more) / heft)
+    for step in range(contacts):
+        k = contacts - 1 - step if back == 1 else step
+        if whole[k, LIVE] == 0:
+            continue
+        i, j = whole[k, ONE], whole[k, OTHER]
+        nx, ny, ca, cb = real[k, NX], real[k, NY], real[k, CA], real[k, CB]
+        ux, uy, uw = vel[i, 0], vel[i, 1], vel[i, 2]
+        wx, wy, ww = vel[j, 0], vel[j, 1], vel[j, 2]
+        ix, iy, iw = inverse[i, 0], inverse[i, 1], inverse[i, 2]
+        jx, jy, jw = inverse[j, 0], inverse[j, 1], inverse[j, 2]
+        old = real[k, PN]
+        if real[k, MU] > 0.0:
+            ta, tb = real[k, TA], real[k, TB]
+            slip = nx * (wy - uy) - ny * (wx - ux) + tb * ww - ta * uw
+            most, was = real[k, MU] * max(old, 0.0), real[k, PT]
+            along = min(max(was - slip * real[k, KT], -most), most)
+            real[k, PT] = along
+            more = along - was
+            ux, uy, uw = ux + ix * ny * more, uy - iy * nx * more, uw - iw * ta * more
+            wx, wy, ww = wx - jx * ny * more, wy + jy * nx * more, ww + jw * tb * more
+            change = max(change, abs(more) * real[k, EASE])
+        rate = nx * (wx - ux) + ny * (wy - uy) + cb * ww - ca * uw
+        wanted = max(old - (rate - real[k, TARGET]) * real[k, KN], 0.0)
+        real[k, PN] = wanted
+        more = wanted - old
+        vel[i, 0], vel[i, 1], vel[i, 2] = ux - ix * nx * more, uy - iy * ny * more, uw - iw * ca * more
+        vel[j, 0], vel[j, 1], vel[j, 2] = wx + jx * nx * more, wy + jy * ny * more, ww + jw * cb * more
+        change = max(change, abs(more) * real[k, EASE])
+    return change
+
+
+@part
+def settle(
+    real: FloatArray,
+    whole: IntArray,
+    bars: FloatArray,
+    jacobian: FloatArray,
+    ends: IntArray,
+    inverse: FloatArray,
+    contacts: int,
+    vel: FloatArray,
+    rounds: float,
+    close: float,
+) -> None:
+    """Sweeps forth and back until no rate changes by more than `close`, m/s, at most so many rounds, and at most
+    `ENOUGH` once changes are `SMALL`. Before a round all go on along a conjugate direction (Silcowitz, Niebuhr
+    and Erleben 2010), for sweeps alone carry a force only one contact further each time."""
+    done, share, gone = 0.0, 0.0, 0.0
+    while True:
+        for k in range(contacts):
+            dn, dt = share * real[k, DN], share * real[k, DT]
+            if whole[k, LIVE] == 1 and (dn != 0.0 or dt != 0.0):
+                press(real, whole, inverse, k, dn, dt, vel)
+            else:
+                dn, dt = 0.0, 0.0
+            real[k, ON], real[k, OT] = real[k, PN], real[k, PT]
+            real[k, PN] += dn
+            real[k, PT] += dt
+            real[k, DN], real[k, DT] = dn, dt
+        for k in range(len(bars)):
+            more = share * bars[k, WAY] if bars[k, ACTIVE] == 1.0 and bars[k, HEFT] > 0.0 else 0.0
+            if more != 0.0:
+                haul(jacobian, ends, inverse, k, more, vel)
+            bars[k, OLD], bars[k, WAY] = bars[k, IMPULSE], more
+            bars[k, IMPULSE] += more
         change = 0.0
-        for step in range(rows):
-            k = step if turn % 2 == 0 else rows - 1 - step
-            heft = bars[k, HEFT]
-            if bars[k, ACTIVE] == 0.0 or heft == 0.0:
-                continue
-            wanted = bars[k, IMPULSE] - (rate_of(crowd, k, vel) - bars[k, GOAL]) * heft
-            wanted = min(max(wanted, bars[k, LEAST]), bars[k, MOST])
-            more = wanted - bars[k, IMPULSE]
-            if more != 0.0:
-                bars[k, IMPULSE] = wanted
-                haul(world, crowd, k, more, vel)
-                change = max(change, abs(more) / heft)
-        for step in range(contacts):
-            k = step if turn % 2 == 0 else contacts - 1 - step
-            if whole[k, LIVE] == 0:
-                continue
-            aside = 0.0
-            if real[k, MU] > 0.0 and real[k, KT] > 0.0:
-                most = real[k, MU] * real[k, PN]
-                wanted = min(max(real[k, PT] - slipping(crowd, k, vel) * real[k, KT], -most), most)
-                aside = wanted - real[k, PT]
-                if aside != 0.0:
-                    real[k, PT] = wanted
-                    press(world, crowd, k, 0.0, aside, vel)
-                    change = max(change, abs(aside) / real[k, KT])
-            more = -(opening(crowd, k, vel) - real[k, TARGET]) * real[k, KN]
-            if more < -real[k, PN]:
-                more = -real[k, PN]
-            if more != 0.0:
-                real[k, PN] += more
-                press(world, crowd, k, more, 0.0, vel)
-                change = max(change, abs(more) / real[k, KN])
-        if change <= tolerance:
-            return turn + 1
-    return sweeps
+        for back in range(2):
+            change = _sweep(real, whole, bars, jacobian, ends, inverse, contacts, vel, back)
+        done += 1.0
+        if change <= close or done >= rounds or (change <= SMALL and done >= ENOUGH):
+            return
+        # Gradient: what the sweeps alone changed. Direction: it and a share of the one before.
+        size = 0.0
+        for k in range(contacts):
+            if whole[k, LIVE] == 1:
+                gn, gt = real[k, PN] - real[k, ON] - real[k, DN], real[k, PT] - real[k, OT] - real[k, DT]
+                size += (gn * gn + gt * gt) * real[k, EASE]
+                real[k, DN] += gn
+                real[k, DT] += gt
+        for k in range(len(bars)):
+            if bars[k, ACTIVE] == 1.0 and bars[k, HEFT] > 0.0:
+                more = bars[k, IMPULSE] - bars[k, OLD] - bars[k, WAY]
+                size += more * more / bars[k, HEFT]
+                bars[k, WAY] += more
+        share = size / gone if gone > 0.0 and size <= gone else 0.0
+        gone = size
 
 
-@kernel
+@part
 def push_apart(world: World, crowd: Crowd, h: float) -> bool:
     """Moves bodies so that overlap grows less; whether there was any. Rows and other contacts yield nothing."""
-    real, contacts, inverse = crowd.real, crowd.tally[CONTACTS], world.inverse
+    real, whole, contacts, inverse = crowd.real, crowd.whole, crowd.tally[CONTACTS], world.inverse
     deepest = 0.0
     for k in range(contacts):
         deepest = max(deepest, -real[k, GAP])
     if deepest <= SLOP:
         return False
-    shift, bars = crowd.shift, crowd.bars
+    shift, bars, pos = crowd.shift, crowd.bars, crowd.pos
     for i in range(len(shift)):
         shift[i, 0], shift[i, 1], shift[i, 2] = 0.0, 0.0, 0.0
     for k in range(contacts):
         if real[k, GAP] >= 0.0:
             real[k, LIFT] = 0.0
         elif real[k, LIFT] > 0.0:
-            press(world, crowd, k, real[k, LIFT], 0.0, shift)
+            press(real, whole, inverse, k, real[k, LIFT], 0.0, shift)
     for turn in range(PUSHES):
         for step in range(contacts):
             k = step if turn % 2 == 0 else contacts - 1 - step
             gap = real[k, GAP]
             wanted = -gap if gap > 0.0 else h * min(-gap * PUSH_RATE, PUSH_SPEED)
-            more = (wanted - opening(crowd, k, shift)) * real[k, KN]
+            more = (wanted - opening(real, whole, k, shift)) * real[k, KN]
             more = max(more, -real[k, LIFT])
             if more != 0.0:
                 real[k, LIFT] += more
-                press(world, crowd, k, more, 0.0, shift)
+                press(real, whole, inverse, k, more, 0.0, shift)
         for k in range(len(crowd.rows)):
             if bars[k, ACTIVE] == 1.0 and bars[k, MOST] == np.inf:
-                away = rate_of(crowd, k, shift)
+                away = rate_of(crowd.jacobian, crowd.ends, k, shift)
                 if bars[k, LEAST] < 0.0 or away < -max(crowd.rows[k].gap, 0.0):
-                    haul(world, crowd, k, -away * bars[k, HEFT], shift)
+                    haul(crowd.jacobian, crowd.ends, inverse, k, -away * bars[k, HEFT], shift)
     for i in range(len(shift)):
         for q in range(3):
             if inverse[i, q] > 0.0:
-                crowd.pos[i, q] += shift[i, q]
+                pos[i, q] += shift[i, q]
             shift[i, q] = 0.0
     return True

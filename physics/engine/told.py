@@ -10,7 +10,7 @@ from physics.trajectory import Event
 
 
 def told(
-    world: World, names: Names, time: float, kind: int, number: int, size: float
+    world: World, names: Names, time: float, kind: float, number: int, size: float
 ) -> tuple[Event, tuple[str, int] | None]:
     """(the event that a kernel noted, ("link", its number) if a given tension or wire ends with it)."""
     row: Any

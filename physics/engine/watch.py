@@ -3,17 +3,34 @@ courses that end, bodies that come to rest. Each is noted as (time, kind, number
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.engine.collide import FAST, approach
 from physics.engine.crowd import ACTIVE, BUCKLED, CONTACTS, DONE, EVENTS, GIVES, IMPULSE, PAIRS, Crowd
 from physics.engine.forces import clearance, ends_of, normal_of
-from physics.engine.manifold import GAP, HIT, PAIR, TAU, I, J, renew
+from physics.engine.manifold import GAP, HIT, ONE, OTHER, PAIR, TAU, renew
 from physics.engine.rows import CORD
 from physics.engine.soft import opening
-from physics.engine.collide import FAST, approach
 from physics.engine.world import WIRE, World
-from physics.jit import kernel
+from physics.jit import part
+from sketch.ink import FloatArray
 
-IMPACT, BREAK, SLACK, TAUT, BOUNCE, LIFT, RELEASED, REST, STRETCHED = 0, 1, 2, 3, 4, 5, 6, 7, 8
-"""Kinds; number is a pair, link, support, course or body; value a speed, m/s, a force, N, or a length, m."""
+IntArray = NDArray[np.int64]
+
+IMPACT, BREAK, SLACK, TAUT, BOUNCE, LIFT, RELEASED, REST, STRETCHED = (
+    0.0,
+    1.0,
+    2.0,
+    3.0,
+    4.0,
+    5.0,
+    6.0,
+    7.0,
+    8.0,
+)
+"""Kinds; number is a pair, link, support, course or body; value a speed, m/s, a force, N, or a
+length, m. Floats, for numba compiles a function anew for every integer constant that it is called with."""
 
 TOUCH = 1e-4
 """m: bodies nearer than this were not apart."""
@@ -27,50 +44,49 @@ SMOOTHING = 0.8
 """Share of the newest frame, at 60 Hz, in the smoothed motion (row E2)."""
 
 
-@kernel
-def note(crowd: Crowd, time: float, kind: int, number: int, value: float) -> None:
+@part
+def note(tally: IntArray, events: FloatArray, time: float, kind: float, number: int, value: float) -> None:
     """One event more; the caller has seen to it that there is room."""
-    at = crowd.tally[EVENTS]
-    crowd.events[at, 0], crowd.events[at, 1] = time, kind
-    crowd.events[at, 2], crowd.events[at, 3] = number, value
-    crowd.tally[EVENTS] = at + 1
+    at = tally[EVENTS]
+    events[at, 0], events[at, 1], events[at, 2], events[at, 3] = time, kind, number, value
+    tally[EVENTS] = at + 1
 
 
-@kernel
-def watch_contacts(world: World, crowd: Crowd, t: float, struck: bool) -> None:
+@part
+def watch_contacts(crowd: Crowd, t: float, struck: bool) -> None:
     """Notes impacts of bodies that were apart, and who touches whom."""
-    real, whole, done = crowd.real, crowd.whole, crowd.tally[DONE]
+    real, whole, touching, done = crowd.real, crowd.whole, crowd.touching, crowd.tally[DONE]
     for k in range(crowd.tally[CONTACTS]):
         pair = whole[k, PAIR]
-        if struck and real[k, HIT] > 0.0 and crowd.touching[pair] < done - 1:
-            note(crowd, t + real[k, TAU], IMPACT, pair, real[k, HIT])
-            crowd.touching[pair] = done
+        if struck and real[k, HIT] > 0.0 and touching[pair] < done - 1:
+            note(crowd.tally, crowd.events, t + real[k, TAU], IMPACT, pair, real[k, HIT])
+            touching[pair] = done
         if real[k, GAP] <= TOUCH:
-            crowd.touching[pair] = done
+            touching[pair] = done
 
 
-@kernel
+@part
 def release(world: World, crowd: Crowd, t: float, h: float, lag: float) -> None:
     """Ends the courses of bodies that are about to collide."""
     whole = crowd.whole
     for k in range(crowd.tally[CONTACTS]):
         gap = crowd.real[k, GAP]
         rate, when = approach(
-            gap, opening(crowd, k, crowd.vel), opening(crowd, k, crowd.acc), lag, h
+            gap, opening(crowd.real, whole, k, crowd.vel), opening(crowd.real, whole, k, crowd.acc), lag, h
         )
         if rate >= -FAST:
             continue
         for c in range(len(world.courses)):
             course = world.courses[c]
-            if course.on == 1 and (course.body == whole[k, I] or course.body == whole[k, J]):
+            if course.on == 1 and (course.body == whole[k, ONE] or course.body == whole[k, OTHER]):
                 course.on = 0
                 world.inverse[course.body, course.axis] = 1.0 / world.mass[course.body, course.axis]
                 crowd.acc[course.body, course.axis] = 0.0
-                note(crowd, t + when, RELEASED, c, 0.0)
+                note(crowd.tally, crowd.events, t + when, RELEASED, c, 0.0)
         renew(k, crowd.pos, crowd.turns, world.inverse, crowd.real, whole)
 
 
-@kernel
+@part
 def watch_supports(world: World, crowd: Crowd, t: float) -> None:
     """Strikes back what sank too deep into its support, and ends supports that were left."""
     for k in range(len(world.supports)):
@@ -94,13 +110,13 @@ def watch_supports(world: World, crowd: Crowd, t: float) -> None:
             crowd.vel[i, 1] += world.inverse[i, 1] * blow * ny
             crowd.vel[j, 0] -= world.inverse[j, 0] * blow * nx
             crowd.vel[j, 1] -= world.inverse[j, 1] * blow * ny
-            note(crowd, t, BOUNCE, k, -rate)
+            note(crowd.tally, crowd.events, t, BOUNCE, k, -rate)
         elif gap > support.skin and support.risen == 0:
             support.risen = 1
-            note(crowd, t, LIFT, k, gap)
+            note(crowd.tally, crowd.events, t, LIFT, k, gap)
 
 
-@kernel
+@part
 def watch_wires(world: World, crowd: Crowd, t: float, kick: float, h: float) -> None:
     """Breaks wires, and notes which go slack. kick: the length of the substep's kick, s."""
     bars = crowd.bars
@@ -113,32 +129,33 @@ def watch_wires(world: World, crowd: Crowd, t: float, kick: float, h: float) -> 
         bars[k, GIVES] = 0.0
         if pull > link.limit:
             link.broken = 1
-            note(crowd, t, BREAK, row.source, pull)
+            note(crowd.tally, crowd.events, t, BREAK, row.source, pull)
         elif row.gap > LOOSE and bars[k, BUCKLED] == 0.0:
             bars[k, BUCKLED] = 1.0
-            note(crowd, t, SLACK, row.source, row.gap)
+            note(crowd.tally, crowd.events, t, SLACK, row.source, row.gap)
         elif bars[k, BUCKLED] == 1.0 and row.gap <= 0.0:
             bars[k, BUCKLED] = 0.0
-            note(crowd, t, TAUT, row.source, 0.0)
+            note(crowd.tally, crowd.events, t, TAUT, row.source, 0.0)
     for k in range(len(world.links)):
         link = world.links[k]
         if link.kind == WIRE and link.tension >= 0 and link.broken == 0:
             length = ends_of(world, k, crowd.pos)[8]
             if abs(length - link.rest) > link.tolerance:
                 link.broken = 1
-                note(crowd, t, STRETCHED, k, length - link.rest)
+                note(crowd.tally, crowd.events, t, STRETCHED, k, length - link.rest)
 
 
-@kernel
+@part
 def watch_rest(world: World, crowd: Crowd, t: float, movable: int) -> None:
     """Notes who comes to rest; once a frame."""
+    motion, now, acc, reach = crowd.motion, crowd.now, crowd.acc, world.reach
     for i in range(movable):
-        was = crowd.motion[i]
-        frame = crowd.now[i, 0] ** 2 + crowd.now[i, 1] ** 2 + crowd.now[i, 2] ** 2
+        was = motion[i]
+        frame = now[i, 0] ** 2 + now[i, 1] ** 2 + now[i, 2] ** 2
         net = frame if was == float("inf") else (1.0 - SMOOTHING) * was + SMOOTHING * frame
-        pulled = (crowd.acc[i, 0] ** 2 + crowd.acc[i, 1] ** 2) ** 0.5
-        if pulled > CALM_ACCELERATION or abs(crowd.acc[i, 2]) * world.reach[i] > CALM_ACCELERATION:
+        pulled = (acc[i, 0] ** 2 + acc[i, 1] ** 2) ** 0.5
+        if pulled > CALM_ACCELERATION or abs(acc[i, 2]) * reach[i] > CALM_ACCELERATION:
             net = max(net, CALM)
-        crowd.motion[i] = net
+        motion[i] = net
         if net < CALM <= was:
-            note(crowd, t, REST, i, 0.0)
+            note(crowd.tally, crowd.events, t, REST, i, 0.0)
