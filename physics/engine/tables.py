@@ -12,7 +12,7 @@ import numpy as np
 
 from physics.engine.cells import Layout, grid, integers, line, record
 from physics.formula.kernel import branches, evaluate
-from physics.jit import kernel
+from physics.jit import inner
 from sketch.ink import FloatArray
 
 _INDICES = ("kind", "i", "j", "tension", "reader", "over", "broken")
@@ -87,97 +87,97 @@ PUSHED = 0
 """The opcode of a number in a program (physics.formula.kernel)."""
 
 
-@kernel
+@inner
 def gravity(w: Any) -> FloatArray:
     """(2,) m/s²."""
     return line(w, w.gravity_at, 2)
 
 
-@kernel
+@inner
 def masses(w: Any) -> FloatArray:
     """(bodies, 3) kg, kg, kg m²."""
     return grid(w, w.mass_at, w.bodies, 3)
 
 
-@kernel
+@inner
 def inverses(w: Any) -> FloatArray:
     """(bodies, 3) 1 / mass; zero for what is fixed and along a course."""
     return grid(w, w.inverse_at, w.bodies, 3)
 
 
-@kernel
+@inner
 def radii(w: Any) -> FloatArray:
     """(bodies,) m."""
     return line(w, w.radius_at, w.bodies)
 
 
-@kernel
+@inner
 def firsts(w: Any) -> Any:
     """(bodies,) first corner."""
     return integers(w, w.first_at, w.bodies)
 
 
-@kernel
+@inner
 def counts(w: Any) -> Any:
     """(bodies,) number of corners; none: a disc."""
     return integers(w, w.count_at, w.bodies)
 
 
-@kernel
+@inner
 def reaches(w: Any) -> FloatArray:
     """(bodies,) m."""
     return line(w, w.reach_at, w.bodies)
 
 
-@kernel
+@inner
 def corners(w: Any) -> FloatArray:
     """(vertices, 2) m."""
     return grid(w, w.corners_at, w.vertices, 2)
 
 
-@kernel
+@inner
 def normals(w: Any) -> FloatArray:
     """(vertices, 2)."""
     return grid(w, w.normals_at, w.vertices, 2)
 
 
-@kernel
+@inner
 def edges(w: Any) -> FloatArray:
     """(vertices,) m."""
     return line(w, w.edges_at, w.vertices)
 
 
-@kernel
+@inner
 def link_of(w: Any, k: int) -> Any:
     """Link k."""
     return record(w, w.links_at + k * _LINK, LINK)
 
 
-@kernel
+@inner
 def pair_of(w: Any, k: int) -> Any:
     """Pair k."""
     return record(w, w.pairs_at + k * _PAIR, PAIR)
 
 
-@kernel
+@inner
 def push_of(w: Any, k: int) -> Any:
     """Student's force k."""
     return record(w, w.pushes_at + k * _PUSH, PUSH)
 
 
-@kernel
+@inner
 def support_of(w: Any, k: int) -> Any:
     """Given normal force k."""
     return record(w, w.supports_at + k * _SUPPORT, SUPPORT)
 
 
-@kernel
+@inner
 def course_of(w: Any, k: int) -> Any:
     """Course k."""
     return record(w, w.courses_at + k * _COURSE, COURSE)
 
 
-@kernel
+@inner
 def value(w: Any, program: int, t: float, pos: FloatArray, vel: FloatArray) -> float:
     """A program's value; NaN where it has none."""
     spans = integers(w, w.spans_at, 2 * w.programs)
@@ -189,7 +189,7 @@ def value(w: Any, program: int, t: float, pos: FloatArray, vel: FloatArray) -> f
     return evaluate(ops, args, who, start, stop, t, pos, vel, stack)
 
 
-@kernel
+@inner
 def branch(w: Any, program: int, t: float, pos: FloatArray, vel: FloatArray) -> int:
     """Which branches a program takes, as a number; 0 where it has none to take."""
     if integers(w, w.switches_at, w.programs)[program] == 0:

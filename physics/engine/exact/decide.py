@@ -20,7 +20,7 @@ from physics.engine.exact.solve import accelerate, demand
 from physics.engine.exact.touch import TOUCHING
 from physics.engine.tables import WORLD, gravity, masses
 from physics.engine.world import IntArray, Table, World
-from physics.jit import kernel
+from physics.jit import inner, kernel
 from sketch.ink import FloatArray
 
 SLOW = 1e-9
@@ -94,7 +94,7 @@ def accelerated(cells: FloatArray, memory: FloatArray, t: float) -> None:
     accelerate(w, m, t)
 
 
-@kernel
+@inner
 def quickest(w: Any, m: Any) -> float:
     """The greatest acceleration about, m/s²."""
     most = max(1e-12, abs(gravity(w)[0]), abs(gravity(w)[1]))

@@ -41,7 +41,7 @@ from physics.engine.exact.machine import (
 from physics.engine.exact.rows import refresh
 from physics.engine.exact.solve import accelerate, solve
 from physics.engine.tables import WORLD, inverses
-from physics.jit import kernel
+from physics.jit import inner, kernel
 from sketch.ink import FloatArray
 
 _EXTRA_A: FloatArray = np.asarray(DOP853.A_EXTRA)
@@ -55,7 +55,7 @@ _E5: FloatArray = np.asarray(DOP853.E5)
 _D: FloatArray = np.asarray(DOP853.D)
 
 
-@kernel
+@inner
 def unpack(y: FloatArray, movable: int, pos: FloatArray, vel: FloatArray) -> None:
     """A state's poses and velocities."""
     for i in range(movable):
@@ -64,7 +64,7 @@ def unpack(y: FloatArray, movable: int, pos: FloatArray, vel: FloatArray) -> Non
             vel[i, a] = y[3 * (movable + i) + a]
 
 
-@kernel
+@inner
 def derive(w: Any, m: Any, t: float, y: FloatArray, rates: FloatArray) -> bool:
     """dy/dt, (size,). False where a formula or a force has no value."""
     pos, vel, acc, power_of = poses(m), velocities(m), accelerations(m), power(m)
@@ -83,7 +83,7 @@ def derive(w: Any, m: Any, t: float, y: FloatArray, rates: FloatArray) -> bool:
     return fine
 
 
-@kernel
+@inner
 def _advance(y: FloatArray, rates: FloatArray, stage: int, h: float, new: FloatArray) -> None:
     """new ← the state at a stage: y + h Σ a rates."""
     for k in range(len(y)):
@@ -97,7 +97,7 @@ def _advance(y: FloatArray, rates: FloatArray, stage: int, h: float, new: FloatA
         new[k] = y[k] + h * new[k]
 
 
-@kernel
+@inner
 def step(w: Any, m: Any, t: float, h: float, accuracy: float) -> float:
     """Takes the state on by h into `newest`, projected; slope 0 must be the derivative at the start.
 
@@ -115,7 +115,7 @@ def step(w: Any, m: Any, t: float, h: float, accuracy: float) -> float:
     return _error(m, h, accuracy)
 
 
-@kernel
+@inner
 def _error(m: Any, h: float, accuracy: float) -> float:
     y, new, rates = state(m), newest(m), slopes(m)
     n = 6 * m.movable
@@ -133,7 +133,7 @@ def _error(m: Any, h: float, accuracy: float) -> float:
     return abs(h) * fifth / np.sqrt((fifth + 0.01 * third) * n)
 
 
-@kernel
+@inner
 def project(w: Any, m: Any, t: float, y: FloatArray) -> None:
     """Brings a state back onto the rows that hold, and onto courses: first positions, then velocities."""
     pos, vel, inverse = poses(m), velocities(m), inverses(w)
@@ -169,7 +169,7 @@ def project(w: Any, m: Any, t: float, y: FloatArray) -> None:
             y[3 * (movable + i) + a] = vel[i, a]
 
 
-@kernel
+@inner
 def densify(w: Any, m: Any, t: float, h: float) -> bool:
     """Works out the dense output of the step just taken, so that `between` gives any moment of it."""
     y, new, rates, dense = state(m), newest(m), slopes(m), dense_of(m)
@@ -192,7 +192,7 @@ def densify(w: Any, m: Any, t: float, h: float) -> bool:
     return True
 
 
-@kernel
+@inner
 def between(dense: FloatArray, x: float, y: FloatArray) -> None:
     """The state at share x of a step, by its dense output, (8, size)."""
     for k in range(len(y)):

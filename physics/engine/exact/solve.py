@@ -40,7 +40,7 @@ from physics.engine.exact.machine import (
 from physics.engine.exact.rows import GIVEN, ON, SLIDE, STICK, refresh
 from physics.engine.tables import course_of, inverses, support_of, value
 from physics.engine.world import Table
-from physics.jit import kernel
+from physics.jit import inner
 from sketch.ink import FloatArray
 
 SINGULAR = 1e-10
@@ -99,7 +99,7 @@ def _banded(
     return [labels[k] for k in order], moved
 
 
-@kernel
+@inner
 def accelerate(w: Any, m: Any, t: float) -> float:
     """Accelerations of this moment's poses and velocities; rows get their forces. Returns the heat of
     friction, W. Poses and velocities are first put where courses say."""
@@ -154,7 +154,7 @@ def accelerate(w: Any, m: Any, t: float) -> float:
     return heat
 
 
-@kernel
+@inner
 def demand(row: Any, tangent: int, acc: FloatArray) -> float:
     """The second derivative of a row's gap, or of its slip, under these accelerations, m/s²."""
     i, j = row.i, row.j
@@ -168,7 +168,7 @@ def demand(row: Any, tangent: int, acc: FloatArray) -> float:
     return total + row.c
 
 
-@kernel
+@inner
 def _rub_given(row: Any, w: Any, t: float, pos: FloatArray, vel: FloatArray, force: FloatArray) -> None:
     """Friction's bound under a given normal force; where it slips, its friction is a force like any other."""
     size = value(w, support_of(w, row.source).force, t, pos, vel)
@@ -180,13 +180,13 @@ def _rub_given(row: Any, w: Any, t: float, pos: FloatArray, vel: FloatArray, for
             force[row.j, a] += row.T[3 + a] * row.rub
 
 
-@kernel
+@inner
 def _along(row: Any, tangent: int, at: int) -> float:
     """Entry `at` of what a row's line of the matrix is made of."""
     return row.T[at] if tangent else row.J[at]
 
 
-@kernel
+@inner
 def _across(row: Any, tangent: int, at: int) -> float:
     """The same of its column: what a unit of the unknown pushes, friction of a slipping contact included."""
     if tangent:
@@ -196,7 +196,7 @@ def _across(row: Any, tangent: int, at: int) -> float:
     return row.J[at]
 
 
-@kernel
+@inner
 def coupling(first: Any, tangent: int, second: Any, other: int, inverse: FloatArray) -> float:
     """How much a unit of the second unknown accelerates along the first."""
     total = 0.0
@@ -213,7 +213,7 @@ def coupling(first: Any, tangent: int, second: Any, other: int, inverse: FloatAr
     return total
 
 
-@kernel
+@inner
 def solve(w: Any, m: Any) -> None:
     """found ← the forces that give the rows what `given` asks, the smallest where many do."""
     inverse = inverses(w)
@@ -227,7 +227,7 @@ def solve(w: Any, m: Any) -> None:
     _solve(m)
 
 
-@kernel
+@inner
 def _fill(m: Any, inverse: FloatArray) -> None:
     a_matrix, start, owners, tangent = matrix(m), starts(m), unknown_rows(m), tangents(m)
     for a in range(m.unknowns):
@@ -243,7 +243,7 @@ def _fill(m: Any, inverse: FloatArray) -> None:
             a_matrix[b, a] = coupling(second, tangent[b], first, tangent[a], inverse)
 
 
-@kernel
+@inner
 def _factor(m: Any, shift: float) -> bool:
     """LU of matrix + shift · 1 within its profile; tells whether a pivot vanished."""
     full, lu, start = matrix(m), factor(m), starts(m)
@@ -266,7 +266,7 @@ def _factor(m: Any, shift: float) -> bool:
     return False
 
 
-@kernel
+@inner
 def _substitute(m: Any) -> None:
     """change ← (LU)⁻¹ change."""
     lu, start, x = factor(m), starts(m), change(m)
@@ -279,7 +279,7 @@ def _substitute(m: Any) -> None:
             x[k] -= lu[k, a] * x[a]
 
 
-@kernel
+@inner
 def _residual(m: Any) -> None:
     """change ← given − matrix · found, within the profile."""
     full, start, rest, goal, solution = matrix(m), starts(m), change(m), given(m), found(m)
@@ -292,7 +292,7 @@ def _residual(m: Any) -> None:
             rest[b] -= full[b, a] * solution[a]
 
 
-@kernel
+@inner
 def _solve(m: Any) -> None:
     full, solution, step = matrix(m), found(m), change(m)
     n = m.unknowns

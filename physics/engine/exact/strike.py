@@ -19,7 +19,7 @@ from physics.engine.exact.rows import CORD, GIVEN, PIN_X, POINT, refresh, refres
 from physics.engine.exact.touch import TOUCHING
 from physics.engine.tables import WORLD, inverses, masses
 from physics.engine.world import Table
-from physics.jit import kernel
+from physics.jit import inner, kernel
 from sketch.ink import FloatArray
 
 APPROACH = 1e-9
@@ -91,7 +91,7 @@ def strike(
     return energy - kinetic(w, vel)
 
 
-@kernel
+@inner
 def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
     """Impulses of the rows that take part, one after another, until none changes any more."""
     inverse = inverses(w)
@@ -137,7 +137,7 @@ def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
             return
 
 
-@kernel
+@inner
 def _calm(w: Any, rows: Table, vel: FloatArray, before: FloatArray, most: float) -> None:
     """From the velocities before, as much of the way from the dead impact to the lively one as leaves the
     kinetic energy at `most`."""
@@ -161,7 +161,7 @@ def _calm(w: Any, rows: Table, vel: FloatArray, before: FloatArray, most: float)
             vel[i, a] += share * (lively[i, a] - vel[i, a])
 
 
-@kernel
+@inner
 def kinetic(w: Any, vel: FloatArray) -> float:
     """Of all that can move, J; along a course too."""
     total = 0.0

@@ -25,7 +25,7 @@ from physics.engine.tables import (
     support_of,
 )
 from physics.engine.world import IntArray, Table
-from physics.jit import kernel
+from physics.jit import inner, kernel
 from sketch.ink import FloatArray
 
 TOUCHING = 1e-8
@@ -34,20 +34,20 @@ SAME = 1e-7
 """m: points of contact closer than this are one."""
 
 
-@kernel
+@inner
 def within(w: Any, pos: FloatArray, i: int, x: float, y: float) -> tuple[float, float]:
     """A point of the world in the frame of body i."""
     return turned(-pos[i, 2], x - pos[i, 0], y - pos[i, 1])
 
 
-@kernel
+@inner
 def corner(w: Any, pos: FloatArray, i: int, q: int) -> tuple[float, float]:
     """Corner q (a row of `corners`) of body i in the world."""
     x, y = turned(pos[i, 2], corners(w)[q, 0], corners(w)[q, 1])
     return pos[i, 0] + x, pos[i, 1] + y
 
 
-@kernel
+@inner
 def outside(w: Any, i: int, x: float, y: float) -> tuple[float, int]:
     """How far outside block i its widest face keeps a point (x, y) of its frame, m, and that face."""
     best, face = -1e300, firsts(w)[i]
@@ -59,7 +59,7 @@ def outside(w: Any, i: int, x: float, y: float) -> tuple[float, int]:
     return best, face
 
 
-@kernel
+@inner
 def nearest(w: Any, i: int, x: float, y: float) -> tuple[float, int, int]:
     """Signed distance of a point of block i's frame from the block, the face it is nearest to, and the
     corner, −1 where it is nearest to the face itself."""
@@ -81,7 +81,7 @@ def nearest(w: Any, i: int, x: float, y: float) -> tuple[float, int, int]:
     return distance, found, at
 
 
-@kernel
+@inner
 def widest(w: Any, pos: FloatArray, i: int, j: int) -> tuple[float, int]:
     """The face of block i that keeps block j farthest away, and how far, m."""
     best, face = -1e300, firsts(w)[i]
@@ -100,7 +100,7 @@ def widest(w: Any, pos: FloatArray, i: int, j: int) -> tuple[float, int]:
     return best, face
 
 
-@kernel
+@inner
 def separation(w: Any, pos: FloatArray, i: int, j: int) -> float:
     """The gap between two bodies, m; between blocks never more than it is, negative where they overlap."""
     if counts(w)[i] == 0 and counts(w)[j] == 0:
@@ -114,7 +114,7 @@ def separation(w: Any, pos: FloatArray, i: int, j: int) -> float:
     return max(widest(w, pos, i, j)[0], widest(w, pos, j, i)[0])
 
 
-@kernel
+@inner
 def newcomers(w: Any, m: Any, i: int, j: int, p: int) -> float:
     """The gap between two blocks that touch already, but for the corners that do: the least distance by
     which another corner of either is outside the other, m. Discs touch at one place only: infinite."""
@@ -136,7 +136,7 @@ def newcomers(w: Any, m: Any, i: int, j: int, p: int) -> float:
     return least
 
 
-@kernel
+@inner
 def _blank(row: Any, w: Any, p: int, kind: int, i: int, j: int, feature: int) -> None:
     pair = pair_of(w, p)
     row.kind, row.i, row.j, row.source, row.feature = kind, i, j, p, feature
@@ -151,7 +151,7 @@ def _blank(row: Any, w: Any, p: int, kind: int, i: int, j: int, feature: int) ->
     row.force, row.rub, row.bound = 0.0, 0.0, 0.0
 
 
-@kernel
+@inner
 def _disc_on_block(
     w: Any, pos: FloatArray, vel: FloatArray, p: int, i: int, j: int, reach: float, rows: Table, n: int
 ) -> int:
@@ -182,7 +182,7 @@ def _disc_on_block(
     return n + 1
 
 
-@kernel
+@inner
 def _corner_on_face(
     w: Any,
     pos: FloatArray,
@@ -221,7 +221,7 @@ def _corner_on_face(
     return n + 1
 
 
-@kernel
+@inner
 def _block_on_block(
     w: Any, pos: FloatArray, vel: FloatArray, p: int, i: int, j: int, reach: float, rows: Table, n: int
 ) -> int:
@@ -253,7 +253,7 @@ def _block_on_block(
     return n
 
 
-@kernel
+@inner
 def touching(w: Any, pos: FloatArray, vel: FloatArray, p: int, reach: float, rows: Table, n: int) -> int:
     """Adds to rows[n:] the places where pair p touches (gaps below `reach`, m); returns the new n."""
     i, j = pair_of(w, p).i, pair_of(w, p).j
