@@ -44,7 +44,8 @@ def part(function: F) -> F:
 
 
 def _compiled(function: F, options: dict[str, bool]) -> F:
-    compiled: Any = numba.njit(nogil=True, error_model="numpy", fastmath=False, **options)(function)
+    chosen: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": False, **options}
+    compiled: Any = numba.njit(**chosen)(function)
     with suppress(RuntimeError):  # numba found no directory that it may write to
         compiled._cache = _KernelCache(function)  # what cache=True does, with numba's own class
         _delete_stale(Path(compiled._cache.cache_path))
@@ -55,8 +56,14 @@ def inner(function: F) -> F:
     """The same for what only kernels call: it cannot be called from Python, and is kept on disk only as part of
     the kernels that it is compiled into. A third of the time to compile goes into what this leaves out."""
     options: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-    compiled: Any = numba.njit(nogil=True, error_model="numpy", fastmath=False, **options)(function)
+    chosen: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": False, **options}
+    compiled: Any = numba.njit(**chosen)(function)
     return cast(F, compiled)
+
+
+def accessor(function: F) -> F:
+    """The same for one-liners: put in the caller's place before anything is compiled."""
+    return cast(F, numba.njit(inline="always")(function))
 
 
 @cache

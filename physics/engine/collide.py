@@ -12,10 +12,10 @@ from math import hypot, sqrt
 from physics.engine.crowd import (
     ACTIVE,
     ASIDE,
+    CLOSING,
     CONTACTS,
     GIVES,
     GOAL,
-    HEFT,
     IMPULSE,
     LEAST,
     WHEN,
@@ -23,6 +23,7 @@ from physics.engine.crowd import (
 )
 from physics.engine.manifold import (
     BOUNCE,
+    GAIN,
     GAP,
     HIT,
     LIVE,
@@ -33,16 +34,16 @@ from physics.engine.manifold import (
     PN,
     PT,
     RATE,
+    SLIP,
     TARGET,
     TAU,
     WN,
     WT,
 )
 from physics.engine.rows import CORD
-from physics.engine.soft import haul, opening, press, rate_of, settle
+from physics.engine.soft import haul, opening, press, rate_of, settle, slipping
 from physics.engine.world import World
 from physics.jit import part
-from sketch.ink import FloatArray
 
 FAST = 1e-4
 """m/s: what closes more slowly, over what gravity makes in a substep, lands without an impact."""
@@ -53,17 +54,7 @@ SWEEPS = 60.0
 CLOSE = 1e-11
 """m/s: sweeps of an impact end when no rate changes by more."""
 ROUNDING = 1e-12
-"""Share by which rounding may raise the kinetic energy in an impact."""
-
-
-@part
-def kinetic(mass: FloatArray, movable: int, vel: FloatArray) -> float:
-    """J."""
-    total = 0.0
-    for i in range(movable):
-        for q in range(3):
-            total += 0.5 * mass[i, q] * vel[i, q] ** 2
-    return total
+"""Share of what approaches bring that rounding may add to the energy."""
 
 
 @part
@@ -81,7 +72,7 @@ def approach(gap: float, rate: float, pull: float, lag: float, h: float) -> tupl
 
 
 @part
-def strike(world: World, crowd: Crowd, movable: int, h: float, lag: float) -> float:
+def strike(world: World, crowd: Crowd, h: float, lag: float) -> float:
     """Gives all that collides within the substep its velocity afterwards; the energy that
     is lost, J, or −1 if nothing collides. HIT of a contact becomes the fastest approach, m/s, of those that were struck, else zero."""
     vel, real, whole, bars = crowd.vel, crowd.real, crowd.whole, crowd.bars
@@ -89,51 +80,50 @@ def strike(world: World, crowd: Crowd, movable: int, h: float, lag: float) -> fl
     gx, gy = world.gravity[0], world.gravity[1]
     acc, since = crowd.acc, crowd.when
     for k in range(contacts):
-        real[k, HIT] = 0.0
+        real[HIT, k] = 0.0
     rounds = 0
-    energy = kinetic(world.mass, movable, vel)
+    loss = 0.0
     while rounds <= ROUNDS:
         struck = False
         for k in range(contacts):
             pull = opening(real, whole, k, acc)
-            rate, when = approach(real[k, GAP], opening(real, whole, k, vel), pull, lag, h)
-            whole[k, LIVE] = 0
-            if rate < -FAST - h * abs(real[k, NX] * gx + real[k, NY] * gy):
+            rate, when = approach(real[GAP, k], opening(real, whole, k, vel), pull, lag, h)
+            whole[LIVE, k] = 0
+            if rate < -FAST - h * abs(real[NX, k] * gx + real[NY, k] * gy):
                 if not struck and rounds == 0:
                     _begin(crowd)
                 struck = True
-                whole[k, LIVE] = 1
-                real[k, HIT] = max(real[k, HIT], -rate)
-                real[k, RATE], real[k, TAU] = rate, when
-                real[k, TARGET] = -(lag + when) * pull
+                whole[LIVE, k] = 1
+                real[HIT, k] = max(real[HIT, k], -rate)
+                real[RATE, k], real[TAU, k] = rate, when
+                real[GAIN, k] = (lag + when) * pull
                 if rounds > 0:
-                    real[k, TAU] = max(when, since[whole[k, ONE]], since[whole[k, OTHER]])
+                    real[TAU, k] = max(when, since[whole[ONE, k]], since[whole[OTHER, k]])
         for k in range(rows):
             row = crowd.rows[k]
             rate = rate_of(crowd.jacobian, crowd.ends, k, vel)
             bars[k, GOAL] = min(rate, 0.0) if bars[k, LEAST] == 0.0 else rate
-            bars[k, WHEN] = -1.0
+            bars[k, WHEN], bars[k, CLOSING] = -1.0, 0.0
             if row.kind == CORD and bars[k, ACTIVE] == 1.0:
-                rate, when = approach(
-                    row.gap, rate, rate_of(crowd.jacobian, crowd.ends, k, crowd.acc), lag, h
-                )
+                pull = rate_of(crowd.jacobian, crowd.ends, k, acc)
+                rate, when = approach(row.gap, rate, pull, lag, h)
                 if rate < -FAST - 2.0 * h * (abs(row.c) + hypot(gx, gy)):
                     if not struck and rounds == 0:
                         _begin(crowd)
                     struck = True
-                    bars[k, GOAL], bars[k, WHEN] = 0.0, when
+                    bars[k, GOAL], bars[k, WHEN], bars[k, CLOSING] = -(lag + when) * pull, when, rate
         if not struck:
             break
-        _solve(world, crowd, movable, rounds < ROUNDS)
+        loss += _solve(world, crowd, rounds < ROUNDS)
         rounds += 1
     if rounds > 0:
         for k in range(contacts):
-            real[k, PN], real[k, PT] = real[k, WN], real[k, WT]
+            real[PN, k], real[PT, k] = real[WN, k], real[WT, k]
         for k in range(rows):
             bars[k, IMPULSE] = bars[k, ASIDE]
     for k in range(contacts):
-        whole[k, LIVE] = 1
-    return max(energy - kinetic(world.mass, movable, vel), 0.0) if rounds > 0 else -1.0
+        whole[LIVE, k] = 1
+    return max(loss, 0.0) if rounds > 0 else -1.0
 
 
 @part
@@ -141,43 +131,53 @@ def _begin(crowd: Crowd) -> None:
     """Keeps the impulses of the last substep aside."""
     real, bars = crowd.real, crowd.bars
     for k in range(crowd.tally[CONTACTS]):
-        real[k, WN], real[k, WT] = real[k, PN], real[k, PT]
+        real[WN, k], real[WT, k] = real[PN, k], real[PT, k]
     for k in range(len(crowd.rows)):
         bars[k, ASIDE] = bars[k, IMPULSE]
 
 
 @part
-def _solve(world: World, crowd: Crowd, movable: int, lively: bool) -> None:
-    """One round. Newton's restitution and friction together can create energy (Kane and Levinson 1985): then
-    the round is dead, which never does."""
+def _solve(world: World, crowd: Crowd, lively: bool) -> float:
+    """One round; the energy that it takes, J. Newton's restitution and friction together can create energy (Kane
+    and Levinson 1985): then the round is dead, which never does."""
     vel, real, whole, bars = crowd.vel, crowd.real, crowd.whole, crowd.bars
     contacts, rows, inverse = crowd.tally[CONTACTS], len(bars), world.inverse
-    energy = kinetic(world.mass, movable, vel)
-    for attempt in range(2):
+    jacobian, ends, shift, since = crowd.jacobian, crowd.ends, crowd.shift, crowd.when
+    for k in range(contacts):
+        real[SLIP, k] = slipping(real, whole, k, vel)
+    bounce, loss = 1.0 if lively else 0.0, 0.0
+    while True:
         for k in range(contacts):
-            real[k, PN], real[k, PT] = 0.0, 0.0
-            if whole[k, LIVE] == 1 and attempt == 0 and lively:
-                real[k, TARGET] -= real[k, BOUNCE] * real[k, RATE]
+            real[PN, k], real[PT, k] = 0.0, 0.0
+            real[TARGET, k] = -real[GAIN, k] - bounce * real[BOUNCE, k] * real[RATE, k]
         for k in range(rows):
             bars[k, IMPULSE] = 0.0
-        settle(real, whole, bars, crowd.jacobian, crowd.ends, inverse, contacts, vel, SWEEPS, CLOSE)
-        if not lively or attempt == 1 or kinetic(world.mass, movable, vel) <= energy * (1.0 + ROUNDING):
-            break
+        settle(real, whole, bars, jacobian, ends, inverse, contacts, vel, SWEEPS, CLOSE)
+        loss = 0.0
+        scale = 0.0
         for k in range(contacts):
-            if whole[k, LIVE] == 1:
-                press(real, whole, inverse, k, -real[k, PN], -real[k, PT], vel)
-                real[k, TARGET] += real[k, BOUNCE] * real[k, RATE]
+            if whole[LIVE, k] == 1:
+                rate = opening(real, whole, k, vel) + real[GAIN, k]
+                loss -= 0.5 * real[PN, k] * (real[RATE, k] + rate)
+                loss -= 0.5 * real[PT, k] * (real[SLIP, k] + slipping(real, whole, k, vel))
+                scale -= real[PN, k] * real[RATE, k]
+        if bounce == 0.0 or loss >= -ROUNDING * scale:
+            break
+        bounce = 0.0
+        for k in range(contacts):
+            if whole[LIVE, k] == 1:
+                press(real, whole, inverse, k, -real[PN, k], -real[PT, k], vel)
         for k in range(rows):
-            haul(crowd.jacobian, crowd.ends, inverse, k, -bars[k, IMPULSE], vel)
+            haul(jacobian, ends, inverse, k, -bars[k, IMPULSE], vel)
     for k in range(contacts):
-        if whole[k, LIVE] == 1 and real[k, PN] > 0.0:
-            when = real[k, TAU]
-            press(real, whole, inverse, k, -when * real[k, PN], -when * real[k, PT], crowd.shift)
-            crowd.when[whole[k, ONE]] = max(crowd.when[whole[k, ONE]], when)
-            crowd.when[whole[k, OTHER]] = max(crowd.when[whole[k, OTHER]], when)
+        if whole[LIVE, k] == 1 and real[PN, k] > 0.0:
+            i, j, when = whole[ONE, k], whole[OTHER, k], real[TAU, k]
+            press(real, whole, inverse, k, -when * real[PN, k], -when * real[PT, k], shift)
+            since[i], since[j] = max(since[i], when), max(since[j], when)
     for k in range(rows):
-        if bars[k, HEFT] > 0.0 and bars[k, IMPULSE] != 0.0:
-            i, j = crowd.rows[k].i, crowd.rows[k].j
-            when = bars[k, WHEN] if bars[k, WHEN] >= 0.0 else max(crowd.when[i], crowd.when[j])
-            haul(crowd.jacobian, crowd.ends, inverse, k, -when * bars[k, IMPULSE], crowd.shift)
+        if bars[k, IMPULSE] != 0.0:
+            loss -= 0.5 * bars[k, IMPULSE] * bars[k, CLOSING]
+            when = bars[k, WHEN] if bars[k, WHEN] >= 0.0 else max(since[ends[k, 0]], since[ends[k, 1]])
+            haul(jacobian, ends, inverse, k, -when * bars[k, IMPULSE], shift)
             bars[k, GIVES] = max(bars[k, GIVES], bars[k, IMPULSE])
+    return loss

@@ -19,24 +19,13 @@ CONTACTS, PAIRS, EVENTS, RECORDS, PRESSED, NEEDS, DONE, STOPPED, STILL, SWEPT = 
 grow; substeps done; the program without a value (−1: none); substeps without any motion; whether the pairs
 were ever swept."""
 
-BUCKLED, GIVES, LEAST, MOST, GOAL, HEFT, IMPULSE, WHEN, ASIDE, ACTIVE, OLD, WAY = (
-    0,
-    1,
-    2,
-    3,
-    4,
-    5,
-    6,
-    7,
-    8,
-    9,
-    10,
-    11,
-)
-"""Columns of `bars`, one line for each row of `rows`: whether its wire hangs slack; the greatest impulse of impacts in this substep, N s; bounds of its
-impulse, N s; the rate wanted; the mass it meets; impulse; moment of an impact; impulse kept aside; taking part;
-impulse a round ago, and the direction in which it goes on."""
-BARS = 12
+BUCKLED, GIVES, LEAST, MOST, GOAL, HEFT = 0, 1, 2, 3, 4, 5
+"""Columns of `bars`, one line for each row of `rows`: whether its wire hangs slack; the greatest impulse of an
+impact in this substep, N s; bounds of its impulse, N s; the rate wanted, m/s; the mass it meets, kg."""
+IMPULSE, WHEN, ASIDE, ACTIVE, OLD, WAY, CLOSING = 6, 7, 8, 9, 10, 11, 12
+"""Impulse; moment of an impact, s; impulse kept aside; taking part; impulse a round ago, and the direction in
+which it goes on; how fast a wire tautens, m/s."""
+BARS = 13
 
 LAST = 0
 """Column of `reals`: length of the last kick, s."""
@@ -159,10 +148,10 @@ def contact_room(pairs: int) -> tuple[FloatArray, IntArray, FloatArray, IntArray
     """Tables for the contacts of that many near pairs, now and a moment ago."""
     many = 2 * pairs
     return (
-        np.zeros((many, REALS)),
-        np.zeros((many, WHOLES), np.int64),
-        np.zeros((many, REALS)),
-        np.zeros((many, WHOLES), np.int64),
+        np.zeros((REALS, many)),
+        np.zeros((WHOLES, many), np.int64),
+        np.zeros((REALS, many)),
+        np.zeros((WHOLES, many), np.int64),
     )
 
 

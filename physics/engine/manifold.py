@@ -1,8 +1,8 @@
 """Where two solids meet or nearly meet, compiled: discs and convex blocks, two points at most.
 
 Blocks: separating axes over the faces of both (Gottschalk 1996), then the other's most opposed edge
-clipped to the face's sides. A disc meets a block on a face or at a corner. A contact is a row of two
-tables, `REALS` columns of numbers and `WHOLES` of integers, and knows its place in the frames of
+clipped to the face's sides. A disc meets a block on a face or at a corner. A contact is a column of
+two tables, `REALS` lines of numbers and `WHOLES` of integers, and knows its place in the frames of
 both bodies, so that it can be brought up to later poses by `renew`.
 
 Frame: SI units, y up; the normal points from body ONE to body OTHER.
@@ -30,11 +30,12 @@ AX, AY, BX, BY, MX, MY, RI, RJ, BOUNCE, MU = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
 NX, NY, CA, CB, TA, TB, KN, KT, GAP, PX, PY = 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20
 """Normal; levers of normal and tangent about both; masses that they meet, kg; gap, m; place, m."""
 PN, PT, TARGET, WN, WT, RATE, TAU, LIFT, HIT = 21, 22, 23, 24, 25, 26, 27, 28, 29
-EASE, ON, OT, DN, DT = 30, 31, 32, 33, 34
+EASE, ON, OT, DN, DT, GAIN, SLIP = 30, 31, 32, 33, 34, 35, 36
 """Impulses along normal and tangent; the least rate wanted; impulses kept aside; a rate; a time; impulse of
 the push out of overlap, kg m; how fast it was struck, m/s;
-1 / mass along the normal; impulses a round ago, and the direction in which they go on."""
-REALS = 35
+1 / mass along the normal; impulses a round ago, and the direction in which they go on; what the rate gains until
+an impact, and the slip before it, m/s."""
+REALS = 37
 
 FACE, POINT = 0, 1
 
@@ -68,7 +69,7 @@ def meet(
         if hypot(dx, dy) - world.radius[i] - world.radius[j] > margin:
             return 0
         _put(world, pair, i, j, real, whole, at)
-        real[at, RI], real[at, RJ] = world.radius[i], world.radius[j]
+        real[RI, at], real[RJ, at] = world.radius[i], world.radius[j]
         return 1
     if world.count[i] == 0 or world.count[j] == 0:
         one, other = (i, j) if world.count[j] == 0 else (j, i)
@@ -87,11 +88,11 @@ def meet(
 
 @part
 def _put(world: World, pair: int, i: int, j: int, real: FloatArray, whole: IntArray, at: int) -> None:
-    whole[at, ONE], whole[at, OTHER], whole[at, KIND] = i, j, POINT
-    whole[at, PAIR], whole[at, FEATURE], whole[at, LIVE] = pair, -1, 1
+    whole[ONE, at], whole[OTHER, at], whole[KIND, at] = i, j, POINT
+    whole[PAIR, at], whole[FEATURE, at], whole[LIVE, at] = pair, -1, 1
     for k in range(REALS):
-        real[at, k] = 0.0
-    real[at, BOUNCE], real[at, MU] = world.pairs[pair].e, world.pairs[pair].mu
+        real[k, at] = 0.0
+    real[BOUNCE, at], real[MU, at] = world.pairs[pair].e, world.pairs[pair].mu
 
 
 @part
@@ -133,9 +134,9 @@ def _disc_on_block(
         _put(world, pair, i, j, real, whole, at)
     else:
         _put(world, pair, i, j, real, whole, at)
-        whole[at, KIND], whole[at, FEATURE] = FACE, face
-        real[at, MX], real[at, MY] = nx, ny
-    real[at, AX], real[at, AY], real[at, RJ] = x1, y1, radius
+        whole[KIND, at], whole[FEATURE, at] = FACE, face
+        real[MX, at], real[MY, at] = nx, ny
+    real[AX, at], real[AY, at], real[RJ, at] = x1, y1, radius
     return 1
 
 
@@ -212,9 +213,9 @@ def _clip(
             continue
         row = at + found
         _put(world, pair, i, j, real, whole, row)
-        whole[row, KIND], whole[row, FEATURE] = FACE, 2 * face + slot
-        real[row, AX], real[row, AY], real[row, MX], real[row, MY] = x1, y1, nx, ny
-        real[row, BX], real[row, BY] = ax + share * (bx - ax), ay + share * (by - ay)
+        whole[KIND, row], whole[FEATURE, row] = FACE, 2 * face + slot
+        real[AX, row], real[AY, row], real[MX, row], real[MY, row] = x1, y1, nx, ny
+        real[BX, row], real[BY, row] = ax + share * (bx - ax), ay + share * (by - ay)
         found += 1
     return found
 
@@ -224,14 +225,14 @@ def renew(
     k: int, pos: FloatArray, turns: FloatArray, inverse: FloatArray, real: FloatArray, whole: IntArray
 ) -> None:
     """Brings contact k up to these poses: gap, normal, levers, masses."""
-    i, j = whole[k, ONE], whole[k, OTHER]
+    i, j = whole[ONE, k], whole[OTHER, k]
     ci, si, cj, sj = turns[i, 0], turns[i, 1], turns[j, 0], turns[j, 1]
-    ax, ay = ci * real[k, AX] - si * real[k, AY], si * real[k, AX] + ci * real[k, AY]
-    bx, by = cj * real[k, BX] - sj * real[k, BY], sj * real[k, BX] + cj * real[k, BY]
+    ax, ay = ci * real[AX, k] - si * real[AY, k], si * real[AX, k] + ci * real[AY, k]
+    bx, by = cj * real[BX, k] - sj * real[BY, k], sj * real[BX, k] + cj * real[BY, k]
     dx, dy = pos[j, 0] + bx - pos[i, 0], pos[j, 1] + by - pos[i, 1]
-    ri, rj = real[k, RI], real[k, RJ]
-    if whole[k, KIND] == FACE:
-        nx, ny = ci * real[k, MX] - si * real[k, MY], si * real[k, MX] + ci * real[k, MY]
+    ri, rj = real[RI, k], real[RJ, k]
+    if whole[KIND, k] == FACE:
+        nx, ny = ci * real[MX, k] - si * real[MY, k], si * real[MX, k] + ci * real[MY, k]
         gap = nx * (dx - ax) + ny * (dy - ay) - rj
         ax, ay, ri = dx - rj * nx, dy - rj * ny, 0.0
     else:
@@ -247,11 +248,11 @@ def renew(
     wi, wj = inverse[i, 2], inverse[j, 2]
     light = nx * nx * mx + ny * ny * my + ca * ca * wi + cb * cb * wj
     aside = ny * ny * mx + nx * nx * my + ta * ta * wi + tb * tb * wj
-    real[k, NX], real[k, NY], real[k, CA], real[k, CB], real[k, TA], real[k, TB] = nx, ny, ca, cb, ta, tb
-    real[k, KN] = 1.0 / light if light > 0.0 else 0.0
-    real[k, EASE] = light
-    real[k, KT] = 1.0 / aside if aside > 0.0 else 0.0
-    real[k, GAP], real[k, PX], real[k, PY] = gap, pos[j, 0] + bx - rj * nx, pos[j, 1] + by - rj * ny
+    real[NX, k], real[NY, k], real[CA, k], real[CB, k], real[TA, k], real[TB, k] = nx, ny, ca, cb, ta, tb
+    real[KN, k] = 1.0 / light if light > 0.0 else 0.0
+    real[EASE, k] = light
+    real[KT, k] = 1.0 / aside if aside > 0.0 else 0.0
+    real[GAP, k], real[PX, k], real[PY, k] = gap, pos[j, 0] + bx - rj * nx, pos[j, 1] + by - rj * ny
 
 
 @part

@@ -96,36 +96,40 @@ def _rebuild(world: World, crowd: Crowd, h: float) -> None:
     before = crowd.tally[CONTACTS]
     for k in range(before):
         for c in range(REALS):
-            old_real[k, c] = real[k, c]
+            old_real[c, k] = real[c, k]
         for c in range(WHOLES):
-            old_whole[k, c] = whole[k, c]
+            old_whole[c, k] = whole[c, k]
     # Numba would compile `meet` anew for a count that it knows to be zero.
     count, old = 0 * before, 0
     for q in range(crowd.tally[PAIRS]):
         number = near[q, 0]
-        while old < before and old_whole[old, PAIR] < number:
+        while old < before and old_whole[PAIR, old] < number:
             old += 1
         end = old
-        while end < before and old_whole[end, PAIR] == number:
+        while end < before and old_whole[PAIR, end] == number:
             end += 1
         if seen[q, 4] == 1.0:
             for k in range(old, end):
                 for c in range(REALS):
-                    real[count, c] = old_real[k, c]
+                    real[c, count] = old_real[c, k]
                 for c in range(WHOLES):
-                    whole[count, c] = old_whole[k, c]
+                    whole[c, count] = old_whole[c, k]
                 count += 1
         else:
-            pair = pairs[number]
+            pair: Any = pairs[number]
             i, j = pair.i, pair.j
-            if pair.support < 0 or world.supports[pair.support].over == 0:
+            given = False
+            if pair.support >= 0:
+                support: Any = world.supports[pair.support]
+                given = support.over == 1
+            if not given:
                 margin = 4.0 * MOVED * pair.size + 2.0 * h * _speed(world.reach, crowd.vel, i, j)
                 found = meet(world, number, pos, turns, margin, real, whole, count)
                 for k in range(count, count + found):
                     for o in range(old, end):
-                        if old_whole[o, FEATURE] == whole[k, FEATURE]:
-                            real[k, PN], real[k, PT] = old_real[o, PN], old_real[o, PT]
-                            real[k, LIFT] = old_real[o, LIFT]
+                        if old_whole[FEATURE, o] == whole[FEATURE, k]:
+                            real[PN, k], real[PT, k] = old_real[PN, o], old_real[PT, o]
+                            real[LIFT, k] = old_real[LIFT, o]
                 count += found
             seen[q, 0], seen[q, 1] = pos[j, 0] - pos[i, 0], pos[j, 1] - pos[i, 1]
             seen[q, 2], seen[q, 3], seen[q, 4] = pos[i, 2], pos[j, 2], 1.0

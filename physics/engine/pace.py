@@ -179,17 +179,17 @@ def _goals(world: World, crowd: Crowd, h: float, kick: float, struck: bool) -> N
         for q in range(3):
             before[i, q] = vel[i, q]
     for k in range(crowd.tally[CONTACTS]):
-        gap = max(real[k, GAP], 0.0)
+        gap = max(real[GAP, k], 0.0)
         if struck:
             gap += opening(real, whole, k, shift)
-        real[k, TARGET] = -gap / h
-        real[k, PN] *= warm
-        real[k, PT] *= warm
+        real[TARGET, k] = -gap / h
+        real[PN, k] *= warm
+        real[PT, k] *= warm
     for k in range(len(crowd.rows)):
         row = crowd.rows[k]
         bars[k, IMPULSE] *= warm
         if row.kind == GIVEN or row.kind == POINT:
-            support = world.supports[row.source]
+            support: Any = world.supports[row.source]
             gap = clearance(world, row.source, crowd.pos, crowd.now)[0]
             most = 0.0
             if support.over == 1 and row.mu > 0.0 and abs(gap) < support.skin:
@@ -214,8 +214,8 @@ def _kick(world: World, crowd: Crowd, movable: int, kick: float) -> float:
         for q in range(3):
             vel[i, q] += kick * inverse[i, q] * force[i, q]
     for k in range(contacts):
-        if real[k, PN] != 0.0 or real[k, PT] != 0.0:
-            press(real, whole, inverse, k, real[k, PN], real[k, PT], vel)
+        if real[PN, k] != 0.0 or real[PT, k] != 0.0:
+            press(real, whole, inverse, k, real[PN, k], real[PT, k], vel)
     for k in range(len(bars)):
         if bars[k, ACTIVE] == 0.0:
             bars[k, IMPULSE] = 0.0
@@ -239,10 +239,10 @@ def _sum_up(crowd: Crowd, kick: float) -> None:
         for q in range(3):
             total[i, q] = crowd.force[i, q]
     for k in range(crowd.tally[CONTACTS]):
-        normal, along = real[k, PN] / kick, real[k, PT] / kick
-        x, y = real[k, NX] * normal - real[k, NY] * along, real[k, NY] * normal + real[k, NX] * along
-        put(total, whole[k, ONE], -x, -y, 0.0, 0.0)
-        put(total, whole[k, OTHER], x, y, 0.0, 0.0)
+        normal, along = real[PN, k] / kick, real[PT, k] / kick
+        x, y = real[NX, k] * normal - real[NY, k] * along, real[NY, k] * normal + real[NX, k] * along
+        put(total, whole[ONE, k], -x, -y, 0.0, 0.0)
+        put(total, whole[OTHER, k], x, y, 0.0, 0.0)
     for k in range(len(crowd.rows)):
         row = crowd.rows[k]
         for q in range(3):
@@ -297,10 +297,10 @@ def _press_on(
     last = -1
     weight = 0.0
     for k in range(contacts):
-        normal, along = real[k, PN], real[k, PT]
+        normal, along = real[PN, k], real[PT, k]
         if normal <= 0.0:
             continue
-        pair = whole[k, PAIR]
+        pair = whole[PAIR, k]
         if pair != last:
             last, weight = pair, 0.0
             numbers[pressed] = pair
@@ -308,14 +308,14 @@ def _press_on(
                 forces[pressed, q] = 0.0
             pressed += 1
         at = pressed - 1
-        sign = (1.0 if whole[k, OTHER] == pairs[pair].j else -1.0) / kick
-        forces[at, 0] += sign * real[k, NX] * normal
-        forces[at, 1] += sign * real[k, NY] * normal
-        forces[at, 2] -= sign * real[k, NY] * along
-        forces[at, 3] += sign * real[k, NX] * along
+        sign = (1.0 if whole[OTHER, k] == pairs[pair].j else -1.0) / kick
+        forces[at, 0] += sign * real[NX, k] * normal
+        forces[at, 1] += sign * real[NY, k] * normal
+        forces[at, 2] -= sign * real[NY, k] * along
+        forces[at, 3] += sign * real[NX, k] * along
         weight += normal
-        forces[at, 4] += (real[k, PX] - forces[at, 4]) * normal / weight
-        forces[at, 5] += (real[k, PY] - forces[at, 5]) * normal / weight
+        forces[at, 4] += (real[PX, k] - forces[at, 4]) * normal / weight
+        forces[at, 5] += (real[PY, k] - forces[at, 5]) * normal / weight
     return pressed
 
 
@@ -359,7 +359,7 @@ def run(
         if len(world.courses) > 0:
             release(world, crowd, t, h, lag)
         watch_supports(world, crowd, t)
-        loss = strike(world, crowd, movable, h, lag)
+        loss = strike(world, crowd, h, lag)
         struck = loss >= 0.0
         watch_contacts(crowd, t, struck)
         _goals(world, crowd, h, kick, struck)

@@ -207,7 +207,8 @@ class RobustRun:
         if tally[NEEDS] > 0:
             pairs = int(1.5 * tally[NEEDS]) + 8
             real, whole, old_real, old_whole = contact_room(pairs)
-            real[: len(crowd.real)], whole[: len(crowd.whole)] = crowd.real, crowd.whole
+            known = crowd.real.shape[1]
+            real[:, :known], whole[:, :known] = crowd.real, crowd.whole
             near, seen = near_room(pairs)
             crowd = crowd._replace(
                 real=real, whole=whole, old_real=old_real, old_whole=old_whole, near=near, seen=seen
@@ -217,7 +218,7 @@ class RobustRun:
         if len(crowd.events) < 2 * noisy:
             crowd = crowd._replace(events=np.zeros((4 * noisy, crowd.events.shape[1])))
         self.crowd = crowd
-        wanted = min((until - 1) // self.each + 2, int(1.25 * self._records()) + 240)
+        wanted = max((until - 1) // self.each + 2, int(1.5 * self._records()))
         if self._records() >= len(record.pos) - 1:
             grown = max(wanted, len(record.pos))
             record = record._replace(
@@ -228,7 +229,8 @@ class RobustRun:
         if pressed + len(crowd.near) > len(record.forces):
             # As much as the records to come will need, if contacts stay as many as they are.
             last = pressed - int(record.ends[self._records() - 2]) if self._records() > 1 else 0
-            grown = pressed + len(crowd.near) * 4 + (len(record.pos) - self._records()) * (last + 1)
+            grown = max(pressed + (len(record.pos) - self._records()) * (last + 1), int(1.5 * pressed))
+            grown += 4 * len(crowd.near)
             record = record._replace(forces=_grown(record.forces, grown), pairs=_grown(record.pairs, grown))
         self.record = record
 

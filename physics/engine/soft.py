@@ -9,6 +9,8 @@ what it moves gains no speed, so no energy of motion.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -83,9 +85,11 @@ def bring_up(world: World, crowd: Crowd) -> None:
             light += crowd.jacobian[k, q] ** 2 * world.inverse[row.i if q < 3 else row.j, q % 3]
         crowd.bars[k, HEFT] = 1.0 / light if light > 0.0 else 0.0
         if rubs:
-            active = world.supports[row.source].over == 1 and row.mu > 0.0
+            support: Any = world.supports[row.source]
+            active = support.over == 1 and row.mu > 0.0
         else:
-            active = world.links[row.source].broken == 0
+            link: Any = world.links[row.source]
+            active = link.broken == 0
             crowd.bars[k, LEAST] = 0.0 if row.kind == CORD else -np.inf
             crowd.bars[k, MOST] = np.inf
         crowd.bars[k, ACTIVE] = 1.0 if active else 0.0
@@ -94,12 +98,24 @@ def bring_up(world: World, crowd: Crowd) -> None:
 @part
 def opening(real: FloatArray, whole: IntArray, k: int, vel: FloatArray) -> float:
     """How fast contact k's gap opens, m/s."""
-    i, j = whole[k, ONE], whole[k, OTHER]
+    i, j = whole[ONE, k], whole[OTHER, k]
     return (
-        real[k, NX] * (vel[j, 0] - vel[i, 0])
-        + real[k, NY] * (vel[j, 1] - vel[i, 1])
-        + real[k, CB] * vel[j, 2]
-        - real[k, CA] * vel[i, 2]
+        real[NX, k] * (vel[j, 0] - vel[i, 0])
+        + real[NY, k] * (vel[j, 1] - vel[i, 1])
+        + real[CB, k] * vel[j, 2]
+        - real[CA, k] * vel[i, 2]
+    )
+
+
+@part
+def slipping(real: FloatArray, whole: IntArray, k: int, vel: FloatArray) -> float:
+    """How fast contact k slips, m/s."""
+    i, j = whole[ONE, k], whole[OTHER, k]
+    return (
+        real[NX, k] * (vel[j, 1] - vel[i, 1])
+        - real[NY, k] * (vel[j, 0] - vel[i, 0])
+        + real[TB, k] * vel[j, 2]
+        - real[TA, k] * vel[i, 2]
     )
 
 
@@ -114,15 +130,15 @@ def press(
     vel: FloatArray,
 ) -> None:
     """Applies impulses along normal and tangent of contact k."""
-    i, j = whole[k, ONE], whole[k, OTHER]
-    x = real[k, NX] * normal - real[k, NY] * tangent
-    y = real[k, NY] * normal + real[k, NX] * tangent
+    i, j = whole[ONE, k], whole[OTHER, k]
+    x = real[NX, k] * normal - real[NY, k] * tangent
+    y = real[NY, k] * normal + real[NX, k] * tangent
     vel[i, 0] -= inverse[i, 0] * x
     vel[i, 1] -= inverse[i, 1] * y
-    vel[i, 2] -= inverse[i, 2] * (real[k, CA] * normal + real[k, TA] * tangent)
+    vel[i, 2] -= inverse[i, 2] * (real[CA, k] * normal + real[TA, k] * tangent)
     vel[j, 0] += inverse[j, 0] * x
     vel[j, 1] += inverse[j, 1] * y
-    vel[j, 2] += inverse[j, 2] * (real[k, CB] * normal + real[k, TB] * tangent)
+    vel[j, 2] += inverse[j, 2] * (real[CB, k] * normal + real[TB, k] * tangent)
 
 
 @part
@@ -175,32 +191,32 @@ def _sweep(
             change = max(change, abs(more) / heft)
     for step in range(contacts):
         k = contacts - 1 - step if back == 1 else step
-        if whole[k, LIVE] == 0:
+        if whole[LIVE, k] == 0:
             continue
-        i, j = whole[k, ONE], whole[k, OTHER]
-        nx, ny, ca, cb = real[k, NX], real[k, NY], real[k, CA], real[k, CB]
+        i, j = whole[ONE, k], whole[OTHER, k]
+        nx, ny, ca, cb = real[NX, k], real[NY, k], real[CA, k], real[CB, k]
         ux, uy, uw = vel[i, 0], vel[i, 1], vel[i, 2]
         wx, wy, ww = vel[j, 0], vel[j, 1], vel[j, 2]
         ix, iy, iw = inverse[i, 0], inverse[i, 1], inverse[i, 2]
         jx, jy, jw = inverse[j, 0], inverse[j, 1], inverse[j, 2]
-        old = real[k, PN]
-        if real[k, MU] > 0.0:
-            ta, tb = real[k, TA], real[k, TB]
+        old = real[PN, k]
+        if real[MU, k] > 0.0:
+            ta, tb = real[TA, k], real[TB, k]
             slip = nx * (wy - uy) - ny * (wx - ux) + tb * ww - ta * uw
-            most, was = real[k, MU] * max(old, 0.0), real[k, PT]
-            along = min(max(was - slip * real[k, KT], -most), most)
-            real[k, PT] = along
+            most, was = real[MU, k] * max(old, 0.0), real[PT, k]
+            along = min(max(was - slip * real[KT, k], -most), most)
+            real[PT, k] = along
             more = along - was
             ux, uy, uw = ux + ix * ny * more, uy - iy * nx * more, uw - iw * ta * more
             wx, wy, ww = wx - jx * ny * more, wy + jy * nx * more, ww + jw * tb * more
-            change = max(change, abs(more) * real[k, EASE])
+            change = max(change, abs(more) * real[EASE, k])
         rate = nx * (wx - ux) + ny * (wy - uy) + cb * ww - ca * uw
-        wanted = max(old - (rate - real[k, TARGET]) * real[k, KN], 0.0)
-        real[k, PN] = wanted
+        wanted = max(old - (rate - real[TARGET, k]) * real[KN, k], 0.0)
+        real[PN, k] = wanted
         more = wanted - old
         vel[i, 0], vel[i, 1], vel[i, 2] = ux - ix * nx * more, uy - iy * ny * more, uw - iw * ca * more
         vel[j, 0], vel[j, 1], vel[j, 2] = wx + jx * nx * more, wy + jy * ny * more, ww + jw * cb * more
-        change = max(change, abs(more) * real[k, EASE])
+        change = max(change, abs(more) * real[EASE, k])
     return change
 
 
@@ -223,15 +239,15 @@ def settle(
     done, share, gone = 0.0, 0.0, 0.0
     while True:
         for k in range(contacts):
-            dn, dt = share * real[k, DN], share * real[k, DT]
-            if whole[k, LIVE] == 1 and (dn != 0.0 or dt != 0.0):
+            dn, dt = share * real[DN, k], share * real[DT, k]
+            if whole[LIVE, k] == 1 and (dn != 0.0 or dt != 0.0):
                 press(real, whole, inverse, k, dn, dt, vel)
             else:
                 dn, dt = 0.0, 0.0
-            real[k, ON], real[k, OT] = real[k, PN], real[k, PT]
-            real[k, PN] += dn
-            real[k, PT] += dt
-            real[k, DN], real[k, DT] = dn, dt
+            real[ON, k], real[OT, k] = real[PN, k], real[PT, k]
+            real[PN, k] += dn
+            real[PT, k] += dt
+            real[DN, k], real[DT, k] = dn, dt
         for k in range(len(bars)):
             more = share * bars[k, WAY] if bars[k, ACTIVE] == 1.0 and bars[k, HEFT] > 0.0 else 0.0
             if more != 0.0:
@@ -241,23 +257,25 @@ def settle(
         change = 0.0
         for back in range(2):
             change = _sweep(real, whole, bars, jacobian, ends, inverse, contacts, vel, back)
+            if change <= close:
+                return
         done += 1.0
-        if change <= close or done >= rounds or (change <= SMALL and done >= ENOUGH):
+        if done >= rounds or (change <= SMALL and done >= ENOUGH):
             return
         # Gradient: what the sweeps alone changed. Direction: it and a share of the one before.
         size = 0.0
         for k in range(contacts):
-            if whole[k, LIVE] == 1:
-                gn, gt = real[k, PN] - real[k, ON] - real[k, DN], real[k, PT] - real[k, OT] - real[k, DT]
-                size += (gn * gn + gt * gt) * real[k, EASE]
-                real[k, DN] += gn
-                real[k, DT] += gt
+            if whole[LIVE, k] == 1:
+                gn, gt = real[PN, k] - real[ON, k] - real[DN, k], real[PT, k] - real[OT, k] - real[DT, k]
+                size += (gn * gn + gt * gt) * real[EASE, k]
+                real[DN, k] += gn
+                real[DT, k] += gt
         for k in range(len(bars)):
             if bars[k, ACTIVE] == 1.0 and bars[k, HEFT] > 0.0:
                 more = bars[k, IMPULSE] - bars[k, OLD] - bars[k, WAY]
                 size += more * more / bars[k, HEFT]
                 bars[k, WAY] += more
-        share = size / gone if gone > 0.0 and size <= gone else 0.0
+        share = min(size / gone, 1.0) if gone > 0.0 else 0.0
         gone = size
 
 
@@ -267,26 +285,26 @@ def push_apart(world: World, crowd: Crowd, h: float) -> bool:
     real, whole, contacts, inverse = crowd.real, crowd.whole, crowd.tally[CONTACTS], world.inverse
     deepest = 0.0
     for k in range(contacts):
-        deepest = max(deepest, -real[k, GAP])
+        deepest = max(deepest, -real[GAP, k])
     if deepest <= SLOP:
         return False
     shift, bars, pos = crowd.shift, crowd.bars, crowd.pos
     for i in range(len(shift)):
         shift[i, 0], shift[i, 1], shift[i, 2] = 0.0, 0.0, 0.0
     for k in range(contacts):
-        if real[k, GAP] >= 0.0:
-            real[k, LIFT] = 0.0
-        elif real[k, LIFT] > 0.0:
-            press(real, whole, inverse, k, real[k, LIFT], 0.0, shift)
+        if real[GAP, k] >= 0.0:
+            real[LIFT, k] = 0.0
+        elif real[LIFT, k] > 0.0:
+            press(real, whole, inverse, k, real[LIFT, k], 0.0, shift)
     for turn in range(PUSHES):
         for step in range(contacts):
             k = step if turn % 2 == 0 else contacts - 1 - step
-            gap = real[k, GAP]
+            gap = real[GAP, k]
             wanted = -gap if gap > 0.0 else h * min(-gap * PUSH_RATE, PUSH_SPEED)
-            more = (wanted - opening(real, whole, k, shift)) * real[k, KN]
-            more = max(more, -real[k, LIFT])
+            more = (wanted - opening(real, whole, k, shift)) * real[KN, k]
+            more = max(more, -real[LIFT, k])
             if more != 0.0:
-                real[k, LIFT] += more
+                real[LIFT, k] += more
                 press(real, whole, inverse, k, more, 0.0, shift)
         for k in range(len(crowd.rows)):
             if bars[k, ACTIVE] == 1.0 and bars[k, MOST] == np.inf:

@@ -3,6 +3,8 @@ courses that end, bodies that come to rest. Each is noted as (time, kind, number
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -57,11 +59,11 @@ def watch_contacts(crowd: Crowd, t: float, struck: bool) -> None:
     """Notes impacts of bodies that were apart, and who touches whom."""
     real, whole, touching, done = crowd.real, crowd.whole, crowd.touching, crowd.tally[DONE]
     for k in range(crowd.tally[CONTACTS]):
-        pair = whole[k, PAIR]
-        if struck and real[k, HIT] > 0.0 and touching[pair] < done - 1:
-            note(crowd.tally, crowd.events, t + real[k, TAU], IMPACT, pair, real[k, HIT])
+        pair = whole[PAIR, k]
+        if struck and real[HIT, k] > 0.0 and touching[pair] < done - 1:
+            note(crowd.tally, crowd.events, t + real[TAU, k], IMPACT, pair, real[HIT, k])
             touching[pair] = done
-        if real[k, GAP] <= TOUCH:
+        if real[GAP, k] <= TOUCH:
             touching[pair] = done
 
 
@@ -70,7 +72,7 @@ def release(world: World, crowd: Crowd, t: float, h: float, lag: float) -> None:
     """Ends the courses of bodies that are about to collide."""
     whole = crowd.whole
     for k in range(crowd.tally[CONTACTS]):
-        gap = crowd.real[k, GAP]
+        gap = crowd.real[GAP, k]
         rate, when = approach(
             gap, opening(crowd.real, whole, k, crowd.vel), opening(crowd.real, whole, k, crowd.acc), lag, h
         )
@@ -78,7 +80,7 @@ def release(world: World, crowd: Crowd, t: float, h: float, lag: float) -> None:
             continue
         for c in range(len(world.courses)):
             course = world.courses[c]
-            if course.on == 1 and (course.body == whole[k, ONE] or course.body == whole[k, OTHER]):
+            if course.on == 1 and (course.body == whole[ONE, k] or course.body == whole[OTHER, k]):
                 course.on = 0
                 world.inverse[course.body, course.axis] = 1.0 / world.mass[course.body, course.axis]
                 crowd.acc[course.body, course.axis] = 0.0
@@ -124,7 +126,7 @@ def watch_wires(world: World, crowd: Crowd, t: float, kick: float, h: float) -> 
         row = crowd.rows[k]
         if row.kind != CORD or bars[k, ACTIVE] == 0.0:
             continue
-        link = world.links[row.source]
+        link: Any = world.links[row.source]
         pull = max(bars[k, IMPULSE] / kick, bars[k, GIVES] / h)
         bars[k, GIVES] = 0.0
         if pull > link.limit:
