@@ -12,8 +12,6 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
-
 from physics.engine.exact.touch import gaps_between
 from physics.engine.world import Names, World, start_of, world_of
 from physics.scene import Block, Body, Disc, Scene
@@ -59,7 +57,7 @@ def first_meeting(scene: Scene, strands: Sequence[Strand], begin: float, end: fl
 
 
 def _paths(strand: Strand, times: FloatArray) -> tuple[FloatArray, FloatArray]:
-    begun = max(strand.runs[0].begun, float(times[0]))
+    begun = max(strand.runs[0].start, float(times[0]))
     pos, vel = states_of(strand, np.maximum(times, begun))
     n = strand.run.names.movable
     return pos[:, :n], vel[:, :n]
@@ -67,7 +65,7 @@ def _paths(strand: Strand, times: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 def states_of(strand: Strand, times: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Poses and velocities of a cluster's world at ascending times, from the runs that it had then."""
-    starts = [run.begun for run in strand.runs]
+    starts = [run.start for run in strand.runs]
     which = np.clip(np.searchsorted(starts, times, side="right") - 1, 0, None)
     parts = [strand.runs[k].states(times[which == k]) for k in np.unique(which)]
     return np.concatenate([pos for pos, _ in parts]), np.concatenate([vel for _, vel in parts])
@@ -89,7 +87,7 @@ def _first_of(
     scene: Scene, one: Strand, other: Strand, begin: float, end: float, bodies: dict[str, Body]
 ) -> float | None:
     """When the first bodies of two clusters meet, s."""
-    begin = max(begin, one.runs[0].begun, other.runs[0].begun)
+    begin = max(begin, one.runs[0].start, other.runs[0].start)
     if end <= begin:
         return None
     members = (*one.members, *other.members)
@@ -140,6 +138,8 @@ def _closing(
     j: int,
 ) -> float | None:
     """When a gap that was looked at on a grid first closes, s: a zero between two looks, or a dip."""
+    # Here, for it takes long to import and lone clusters never need it.
+    from scipy.optimize import brentq, minimize_scalar
 
     def gap(t: float) -> float:
         found = np.zeros(1)

@@ -86,15 +86,15 @@ class SceneSource:
         return Observed(accelerations, series, energy, anchors)
 
     def _within(self, strand: Strand, times: FloatArray) -> np.ndarray:
-        begun = strand.runs[0].begun
+        begun = strand.runs[0].start
         return ((times >= begun) | (begun == 0.0)) & (times < strand.end)
 
     def _runs(self, strand: Strand, times: FloatArray) -> list[tuple[ExactRun | RobustRun, np.ndarray]]:
         """The runs of a cluster, each with the frames that it tells of."""
-        ends = [run.begun for run in strand.runs[1:]] + [strand.end]
+        ends = [run.start for run in strand.runs[1:]] + [strand.end]
         within = self._within(strand, times)
         return [
-            (run, within & ((times >= run.begun) | (k == 0)) & (times < end))
+            (run, within & ((times >= run.start) | (k == 0)) & (times < end))
             for k, (run, end) in enumerate(zip(strand.runs, ends, strict=True))
         ]
 
@@ -103,9 +103,9 @@ class SceneSource:
     ) -> None:
         """What a cluster's ledger adds, also after its end. A later run's ledger goes on from the one before."""
         for k, run in enumerate(strand.runs):
-            end = strand.runs[k + 1].begun if k + 1 < len(strand.runs) else strand.end
+            end = strand.runs[k + 1].start if k + 1 < len(strand.runs) else strand.end
             last = k + 1 == len(strand.runs)
-            here = times >= run.begun if last else (times >= run.begun) & (times < end)
+            here = times >= run.start if last else (times >= run.start) & (times < end)
             if not here.any():
                 continue
             entries = run.ledger(np.minimum(times[here], end))

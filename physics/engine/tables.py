@@ -12,7 +12,7 @@ import numpy as np
 
 from physics.engine.cells import Layout, grid, integers, line, record
 from physics.formula.kernel import branches, evaluate
-from physics.jit import inner
+from physics.jit import accessor, inner
 from sketch.ink import FloatArray
 
 _INDICES = ("kind", "i", "j", "tension", "reader", "over", "broken")
@@ -87,91 +87,91 @@ PUSHED = 0
 """The opcode of a number in a program (physics.formula.kernel)."""
 
 
-@inner
+@accessor
 def gravity(w: Any) -> FloatArray:
     """(2,) m/s²."""
     return line(w, w.gravity_at, 2)
 
 
-@inner
+@accessor
 def masses(w: Any) -> FloatArray:
     """(bodies, 3) kg, kg, kg m²."""
     return grid(w, w.mass_at, w.bodies, 3)
 
 
-@inner
+@accessor
 def inverses(w: Any) -> FloatArray:
     """(bodies, 3) 1 / mass; zero for what is fixed and along a course."""
     return grid(w, w.inverse_at, w.bodies, 3)
 
 
-@inner
+@accessor
 def radii(w: Any) -> FloatArray:
     """(bodies,) m."""
     return line(w, w.radius_at, w.bodies)
 
 
-@inner
+@accessor
 def firsts(w: Any) -> Any:
     """(bodies,) first corner."""
     return integers(w, w.first_at, w.bodies)
 
 
-@inner
+@accessor
 def counts(w: Any) -> Any:
     """(bodies,) number of corners; none: a disc."""
     return integers(w, w.count_at, w.bodies)
 
 
-@inner
+@accessor
 def reaches(w: Any) -> FloatArray:
     """(bodies,) m."""
     return line(w, w.reach_at, w.bodies)
 
 
-@inner
+@accessor
 def corners(w: Any) -> FloatArray:
     """(vertices, 2) m."""
     return grid(w, w.corners_at, w.vertices, 2)
 
 
-@inner
+@accessor
 def normals(w: Any) -> FloatArray:
     """(vertices, 2)."""
     return grid(w, w.normals_at, w.vertices, 2)
 
 
-@inner
+@accessor
 def edges(w: Any) -> FloatArray:
     """(vertices,) m."""
     return line(w, w.edges_at, w.vertices)
 
 
-@inner
+@accessor
 def link_of(w: Any, k: int) -> Any:
     """Link k."""
     return record(w, w.links_at + k * _LINK, LINK)
 
 
-@inner
+@accessor
 def pair_of(w: Any, k: int) -> Any:
     """Pair k."""
     return record(w, w.pairs_at + k * _PAIR, PAIR)
 
 
-@inner
+@accessor
 def push_of(w: Any, k: int) -> Any:
     """Student's force k."""
     return record(w, w.pushes_at + k * _PUSH, PUSH)
 
 
-@inner
+@accessor
 def support_of(w: Any, k: int) -> Any:
     """Given normal force k."""
     return record(w, w.supports_at + k * _SUPPORT, SUPPORT)
 
 
-@inner
+@accessor
 def course_of(w: Any, k: int) -> Any:
     """Course k."""
     return record(w, w.courses_at + k * _COURSE, COURSE)

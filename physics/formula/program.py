@@ -15,8 +15,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import sympy
-
 STATE: tuple[str, ...] = ("t", "x", "y", "phi", "v_x", "v_y", "v", "omega")
 """What a program may read at every step: time (s), centre of mass (m) and angle (rad), velocity
 (m/s), speed (m/s), angular velocity (rad/s)."""
@@ -169,6 +167,9 @@ class _Names:
 
 
 def _emit(tree: Node, names: _Names, within: tuple[str, ...]) -> Code:
+    # Here: what was compiled can be evaluated without SymPy, which takes half a second to import.
+    import sympy
+
     if len(within) > DEPTH:
         raise ProgramError("a formula nested too deeply to be evaluated")
     if isinstance(tree, float) or (getattr(tree, "is_number", False) and not tree.args):

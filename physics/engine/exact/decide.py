@@ -16,7 +16,7 @@ from physics.engine.cells import head
 from physics.engine.exact.integrate import unpack
 from physics.engine.exact.machine import MACHINE, Machine, accelerations, poses, row_of, state, velocities
 from physics.engine.exact.rows import CORD, FREE, GIVEN, OFF, ON, POINT, SLIDE, STICK
-from physics.engine.exact.solve import accelerate, demand
+from physics.engine.exact.solve import NORMAL, TANGENT, accelerate, demand
 from physics.engine.exact.touch import TOUCHING
 from physics.engine.tables import WORLD, gravity, masses
 from physics.engine.world import IntArray, Table, World
@@ -127,7 +127,7 @@ def wrong(cells: FloatArray, memory: FloatArray, orderly: bool, change: IntArray
         what = 0
         if row.status == OFF:
             if row.kind <= CORD and row.gap <= TOUCHING and row.rate <= SLOW:
-                size, what = -demand(row, 0, acc) / (WEAK * swift), CLOSE
+                size, what = -demand(row, NORMAL, acc) / (WEAK * swift), CLOSE
         else:
             if row.kind <= CORD:
                 size, what = -row.force / (FORCE * greatest), OPEN
@@ -136,7 +136,7 @@ def wrong(cells: FloatArray, memory: FloatArray, orderly: bool, change: IntArray
                 if row.grip == STICK:
                     size, what = (abs(row.rub) - bound) / (FORCE * greatest), SLIP
                 elif abs(row.slip) <= SLOW:
-                    size, what = -row.sigma * demand(row, 1, acc) / (WEAK * swift), HOLD
+                    size, what = -row.sigma * demand(row, TANGENT, acc) / (WEAK * swift), HOLD
         if size > worst and not (orderly and change[1] != 0):
             worst = size
             change[0], change[1] = k, what
@@ -148,7 +148,7 @@ def pressing(memory: FloatArray) -> None:
     m = head(memory, MACHINE)
     for k in range(m.rows):
         row = row_of(m, k)
-        row.press = demand(row, 0, accelerations(m))
+        row.press = demand(row, NORMAL, accelerations(m))
 
 
 @kernel
@@ -160,5 +160,5 @@ def leaving(cells: FloatArray, memory: FloatArray, gone: FloatArray) -> None:
         row = row_of(m, k)
         gone[k] = 0.0
         if row.kind <= POINT and row.status == OFF:
-            if row.rate > SLOW or demand(row, 0, accelerations(m)) > WEAK * swift:
+            if row.rate > SLOW or demand(row, NORMAL, accelerations(m)) > WEAK * swift:
                 gone[k] = 1.0

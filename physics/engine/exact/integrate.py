@@ -6,7 +6,7 @@ are brought back onto the constraints, each body by its share of mass (projectio
 
 The state is one line of numbers: 3 N positions, 3 N velocities of the bodies that can move, and the
 ledger of heat and works. Source: Hairer, Nørsett, Wanner (1993), Solving ODEs I, II.5 and II.6
-(DOP853); the tableau is scipy's.
+(DOP853).
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.integrate import DOP853
 
 from physics.engine.cells import head, line
 from physics.engine.exact import forces
@@ -40,19 +39,10 @@ from physics.engine.exact.machine import (
 )
 from physics.engine.exact.rows import refresh
 from physics.engine.exact.solve import accelerate, solve
+from physics.engine.exact.tableau import E3, E5, A, C, D
 from physics.engine.tables import WORLD, inverses
 from physics.jit import inner, kernel
 from sketch.ink import FloatArray
-
-_EXTRA_A: FloatArray = np.asarray(DOP853.A_EXTRA)
-_A = np.zeros((16, 16))
-_A[:12, :12] = DOP853.A
-_A[12, :12] = DOP853.B
-_A[13:, : _EXTRA_A.shape[1]] = _EXTRA_A
-_C = np.concatenate([DOP853.C, [1.0], DOP853.C_EXTRA])
-_E3: FloatArray = np.asarray(DOP853.E3)
-_E5: FloatArray = np.asarray(DOP853.E5)
-_D: FloatArray = np.asarray(DOP853.D)
 
 
 @inner
@@ -89,7 +79,7 @@ def _advance(y: FloatArray, rates: FloatArray, stage: int, h: float, new: FloatA
     for k in range(len(y)):
         new[k] = 0.0
     for q in range(stage):
-        share = _A[stage, q]
+        share = A[stage, q]
         if share != 0.0:
             for k in range(len(y)):
                 new[k] += share * rates[q, k]
@@ -107,7 +97,7 @@ def step(w: Any, m: Any, t: float, h: float, accuracy: float) -> float:
     y, new, rates = state(m), newest(m), slopes(m)
     for s in range(1, 13):
         _advance(y, rates, s, h, new)
-        if s < 12 and not derive(w, m, t + _C[s] * h, new, slope(m, s)):
+        if s < 12 and not derive(w, m, t + C[s] * h, new, slope(m, s)):
             return np.inf
     project(w, m, t + h, new)
     if not derive(w, m, t + h, new, slope(m, 12)):
@@ -124,8 +114,8 @@ def _error(m: Any, h: float, accuracy: float) -> float:
         scale = accuracy * max(1.0, abs(y[k]), abs(new[k]))
         five, three = 0.0, 0.0
         for s in range(13):
-            five += _E5[s] * rates[s, k]
-            three += _E3[s] * rates[s, k]
+            five += E5[s] * rates[s, k]
+            three += E3[s] * rates[s, k]
         fifth += (five / scale) ** 2
         third += (three / scale) ** 2
     if fifth == 0.0 and third == 0.0:
@@ -176,7 +166,7 @@ def densify(w: Any, m: Any, t: float, h: float) -> bool:
     scratch = line(m, m.dense_at, m.size)
     for s in range(13, 16):
         _advance(y, rates, s, h, scratch)
-        if not derive(w, m, t + _C[s] * h, scratch, slope(m, s)):
+        if not derive(w, m, t + C[s] * h, scratch, slope(m, s)):
             return False
     for k in range(m.size):
         moved = new[k] - y[k]
@@ -187,7 +177,7 @@ def densify(w: Any, m: Any, t: float, h: float) -> bool:
         for q in range(4):
             total = 0.0
             for s in range(16):
-                total += _D[q, s] * rates[s, k]
+                total += D[q, s] * rates[s, k]
             dense[4 + q, k] = h * total
     return True
 

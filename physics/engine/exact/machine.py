@@ -14,7 +14,7 @@ import numpy as np
 from physics.engine.cells import Layout, grid, integers, line, record
 from physics.engine.exact.rows import ROW
 from physics.engine.world import IntArray, Table
-from physics.jit import inner
+from physics.jit import accessor
 from sketch.ink import FloatArray
 
 POWERS = 8
@@ -210,199 +210,199 @@ def machine_of(
     )
 
 
-@inner
+@accessor
 def row_of(m: Any, k: int) -> Any:
     """Row k."""
     return record(m, m.rows_at + k * _ROW, ROW)
 
 
-@inner
+@accessor
 def unknown_rows(m: Any) -> Any:
     """(unknowns,) the row that each belongs to."""
     return integers(m, m.row_at, m.unknowns)
 
 
-@inner
+@accessor
 def tangents(m: Any) -> Any:
     """(unknowns,) 1 for forces along a row's tangent."""
     return integers(m, m.tangent_at, m.unknowns)
 
 
-@inner
+@accessor
 def starts(m: Any) -> Any:
     """(unknowns,) the first column of each line's profile."""
     return integers(m, m.start_at, m.unknowns)
 
 
-@inner
+@accessor
 def matrix(m: Any) -> FloatArray:
     """(unknowns, unknowns)."""
     return grid(m, m.matrix_at, m.unknowns, m.unknowns)
 
 
-@inner
+@accessor
 def factor(m: Any) -> FloatArray:
     """(unknowns, unknowns) its LU."""
     return grid(m, m.factor_at, m.unknowns, m.unknowns)
 
 
-@inner
+@accessor
 def given(m: Any) -> FloatArray:
     """(unknowns,) the right-hand side."""
     return line(m, m.given_at, m.unknowns)
 
 
-@inner
+@accessor
 def found(m: Any) -> FloatArray:
     """(unknowns,) the solution."""
     return line(m, m.found_at, m.unknowns)
 
 
-@inner
+@accessor
 def change(m: Any) -> FloatArray:
     """(unknowns,) room for a correction."""
     return line(m, m.change_at, m.unknowns)
 
 
-@inner
+@accessor
 def forces_of(m: Any) -> FloatArray:
     """(bodies, 3) all forces on each body."""
     return grid(m, m.force_at, m.bodies, 3)
 
 
-@inner
+@accessor
 def status(m: Any) -> Any:
     """[0]: 1 where the forces are not unique."""
     return integers(m, m.status_at, 1)
 
 
-@inner
+@accessor
 def state(m: Any) -> FloatArray:
     """(size,) the state at the step's start."""
     return line(m, m.y_at, m.size)
 
 
-@inner
+@accessor
 def newest(m: Any) -> FloatArray:
     """(size,) the state at the step's end."""
     return line(m, m.new_at, m.size)
 
 
-@inner
+@accessor
 def slopes(m: Any) -> FloatArray:
     """(16, size) derivatives at the stages."""
     return grid(m, m.slopes_at, STAGES, m.size)
 
 
-@inner
+@accessor
 def slope(m: Any, stage: int) -> FloatArray:
     """(size,) the derivative at one stage."""
     return line(m, m.slopes_at + 8 * stage * m.size, m.size)
 
 
-@inner
+@accessor
 def dense_of(m: Any) -> FloatArray:
     """(8, size) dense output of the latest step."""
     return grid(m, m.dense_at, POWERS, m.size)
 
 
-@inner
+@accessor
 def poses(m: Any) -> FloatArray:
     """(bodies, 3) of the latest evaluation."""
     return grid(m, m.pos_at, m.bodies, 3)
 
 
-@inner
+@accessor
 def velocities(m: Any) -> FloatArray:
     """(bodies, 3)."""
     return grid(m, m.vel_at, m.bodies, 3)
 
 
-@inner
+@accessor
 def accelerations(m: Any) -> FloatArray:
     """(bodies, 3)."""
     return grid(m, m.acc_at, m.bodies, 3)
 
 
-@inner
+@accessor
 def power(m: Any) -> FloatArray:
     """(ledger,) W."""
     return line(m, m.power_at, m.ledger)
 
 
-@inner
+@accessor
 def clock(m: Any) -> FloatArray:
     """[T], [H], [GREATEST], [AT]."""
     return line(m, m.clock_at, 4)
 
 
-@inner
+@accessor
 def before(m: Any) -> FloatArray:
     """(watched,) at the step's start."""
     return line(m, m.before_at, m.watched)
 
 
-@inner
+@accessor
 def after(m: Any) -> FloatArray:
     """(watched,) as last looked at."""
     return line(m, m.after_at, m.watched)
 
 
-@inner
+@accessor
 def kept(m: Any) -> FloatArray:
     """(watched,) at the step's end."""
     return line(m, m.kept_at, m.watched)
 
 
-@inner
+@accessor
 def hits(m: Any) -> Any:
     """(watched,) 1 for what crossed zero in this event."""
     return integers(m, m.hit_at, m.watched)
 
 
-@inner
+@accessor
 def took(m: Any) -> Any:
     """(programs,) branches at the step's start."""
     return integers(m, m.took_at, m.programs)
 
 
-@inner
+@accessor
 def takes(m: Any) -> Any:
     """(programs,) branches as last looked at."""
     return integers(m, m.takes_at, m.programs)
 
 
-@inner
+@accessor
 def gaps(m: Any) -> FloatArray:
     """(pairs,) of the candidates."""
     return line(m, m.gaps_at, m.pairs)
 
 
-@inner
+@accessor
 def olds(m: Any) -> FloatArray:
     """(pairs,) a sample ago."""
     return line(m, m.olds_at, m.pairs)
 
 
-@inner
+@accessor
 def candidates(m: Any) -> Any:
     """(pairs,) those that may meet within the step."""
     return integers(m, m.candidates_at, m.pairs)
 
 
-@inner
+@accessor
 def spans(m: Any) -> FloatArray:
     """(capacity, 2) begin and end of recorded steps."""
     return grid(m, m.spans_at, m.capacity, 2)
 
 
-@inner
+@accessor
 def recording(m: Any, step: int) -> FloatArray:
     """(8 · size,) dense output of a recorded step."""
     return line(m, m.record_at + 64 * step * m.size, POWERS * m.size)
 
 
-@inner
+@accessor
 def recorded(m: Any) -> Any:
     """[0]: how many steps are recorded."""
     return integers(m, m.recorded_at, 1)

@@ -90,7 +90,7 @@ class ExactRun:
         ledger: FloatArray | None = None,
     ) -> None:
         self.world, self.names, self.accuracy = world, names, accuracy
-        self.time = self.begun = time
+        self.time = self.start = time
         self.pos, self.vel = pos.copy(), vel.copy()
         count = 1 + sum(len(t) for t in (world.pushes, world.links, world.supports, world.courses))
         self.works = np.zeros(count) if ledger is None else ledger.copy()
@@ -399,7 +399,7 @@ class ExactRun:
     def _smoothed(self) -> float:
         """The greatest smoothed motion of any body, (m/s)²: frame = ‖v‖² + ω², net ← 0.2 net + 0.8 frame."""
         times = self.time - np.arange(SMOOTHED) / 60.0
-        times = times[times > max(self.begun, max(self.pending.values(), default=self.begun))][::-1]
+        times = times[times > max(self.start, max(self.pending.values(), default=self.start))][::-1]
         if len(times) == 0 or self.pending:
             return 0.0
         n = self.names.movable

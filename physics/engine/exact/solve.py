@@ -15,9 +15,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import reverse_cuthill_mckee
-
 from physics.engine.cells import integers
 from physics.engine.exact import forces
 from physics.engine.exact.machine import (
@@ -51,6 +48,8 @@ singular value that is not zero."""
 ITERATIONS = 60
 SETTLED = 1e-15
 """Share of λ by which the last iteration may still change it."""
+NORMAL, TANGENT = np.int64(0), np.int64(1)
+"""Which force of a row is meant. Not plain integers, of which numba would compile a version each."""
 LARGEST = 1500
 """Unknowns: more would need hours and gigabytes; robust mode takes over long before."""
 
@@ -89,6 +88,10 @@ def _banded(
     labels: list[tuple[int, int]], pairs: set[tuple[int, int]]
 ) -> tuple[list[tuple[int, int]], set[tuple[int, int]]]:
     """The same in an order that keeps the profile narrow (reverse Cuthill-McKee)."""
+    # Here, for it takes long to import and few scenes need it.
+    from scipy.sparse import csr_matrix
+    from scipy.sparse.csgraph import reverse_cuthill_mckee
+
     m = len(labels)
     a, b = np.array(sorted(pairs)).T
     graph = csr_matrix((np.ones(2 * len(a)), (np.r_[a, b], np.r_[b, a])), shape=(m, m))

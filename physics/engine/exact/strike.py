@@ -87,8 +87,29 @@ def strike(
         _sweep(w, rows, vel)
         if kinetic(w, vel) > start * (1.0 + 1e-12):
             _calm(w, rows, vel, before, start)
+    _hold(w, rows, pos, vel)
     refresh_table(rows, pos, vel)
     return energy - kinetic(w, vel)
+
+
+@inner
+def _hold(w: Any, rows: Table, pos: FloatArray, vel: FloatArray) -> None:
+    """Keeps shut what was hit, or holds taut, and would open by less than `RISE` before it is pressed shut again:
+    two wires that each tauten as the other slackens would go on without end."""
+    refresh_table(rows, pos, vel)
+    needed = False
+    for k in range(len(rows)):
+        row = rows[k]
+        row.bound = 0.0
+        if row.kind == GIVEN or row.gap > TOUCHING:
+            continue
+        if row.kind >= PIN_X or row.kind == CORD and abs(row.rate) <= APPROACH:
+            row.bound, row.along = 1.0, 0.0
+        elif row.rate > APPROACH and row.rate**2 < -2.0 * row.press * RISE and (row.kind == CORD or row.shut):
+            row.bound, row.along = 2.0, 0.0
+            needed = True
+    if needed:
+        _sweep(w, rows, vel)
 
 
 @inner
@@ -110,7 +131,7 @@ def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
                 rate += row.J[a] * vel[i, a] + row.J[3 + a] * vel[j, a]
             if give > 0.0:
                 total = row.force + (row.along - rate) / give
-                if row.kind <= CORD:
+                if row.kind <= CORD and row.bound < 2.0:
                     total = max(total, 0.0)
                 change = total - row.force
                 row.force = total

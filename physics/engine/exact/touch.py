@@ -10,8 +10,10 @@ from __future__ import annotations
 from math import hypot
 from typing import Any
 
+import numpy as np
+
 from physics.engine.cells import head
-from physics.engine.exact.machine import poses, row_of
+from physics.engine.exact.machine import poses, row_of, velocities
 from physics.engine.exact.rows import FACE, FREE, OFF, POINT, STICK, refresh, turned
 from physics.engine.tables import (
     WORLD,
@@ -122,6 +124,9 @@ def newcomers(w: Any, m: Any, i: int, j: int, p: int) -> float:
         return 1e300
     least = 1e300
     pos = poses(m)
+    for k in range(m.rows):
+        if row_of(m, k).source == p and row_of(m, k).kind == FACE:
+            refresh(row_of(m, k), pos, velocities(m))
     for one, other in ((i, j), (j, i)):
         for v in range(firsts(w)[other], firsts(w)[other] + counts(w)[other]):
             known = False
@@ -137,9 +142,9 @@ def newcomers(w: Any, m: Any, i: int, j: int, p: int) -> float:
 
 
 @inner
-def _blank(row: Any, w: Any, p: int, kind: int, i: int, j: int, feature: int) -> None:
+def _blank(row: Any, w: Any, p: int, i: int, j: int) -> None:
     pair = pair_of(w, p)
-    row.kind, row.i, row.j, row.source, row.feature = kind, i, j, p, feature
+    row.i, row.j, row.source = i, j, p
     row.e, row.mu = pair.e, pair.mu
     row.status = OFF
     row.grip = STICK if pair.mu > 0.0 else FREE
@@ -170,11 +175,12 @@ def _disc_on_block(
         elif along > edges(w)[face] - TOUCHING and drift > 0.0:
             at = face + 1 if face + 1 < firsts(w)[i] + counts(w)[i] else firsts(w)[i]
     row = rows[n]
+    _blank(row, w, p, i, j)
     if at >= 0:
-        _blank(row, w, p, POINT, i, j, at - firsts(w)[i])
+        row.kind, row.feature = POINT, at - firsts(w)[i]
         row.ax, row.ay = corners(w)[at, 0], corners(w)[at, 1]
     else:
-        _blank(row, w, p, FACE, i, j, 1000 + face - firsts(w)[i])
+        row.kind, row.feature = FACE, 1000 + face - firsts(w)[i]
         row.ax, row.ay = corners(w)[face, 0], corners(w)[face, 1]
         row.nx0, row.ny0 = nx, ny
         row.length = edges(w)[face]
@@ -199,9 +205,9 @@ def _corner_on_face(
 ) -> int:
     """Adds corner v of j on a face of i, where it is there, and nothing else is."""
     row = rows[n]
-    _blank(
-        row, w, p, FACE, i, j, 1000 * (face - firsts(w)[i] + 1) + v - firsts(w)[j] + (0 if i < j else 500_000)
-    )
+    _blank(row, w, p, i, j)
+    row.kind = FACE
+    row.feature = 1000 * (face - firsts(w)[i] + 1) + v - firsts(w)[j] + (0 if i < j else 500_000)
     row.ax, row.ay = corners(w)[face, 0], corners(w)[face, 1]
     row.bx, row.by = corners(w)[v, 0], corners(w)[v, 1]
     row.nx0, row.ny0 = normals(w)[face, 0], normals(w)[face, 1]
@@ -264,7 +270,8 @@ def touching(w: Any, pos: FloatArray, vel: FloatArray, p: int, reach: float, row
     if counts(w)[i] == 0 and counts(w)[j] == 0:
         if hypot(dx, dy) - radii(w)[i] - radii(w)[j] > reach:
             return n
-        _blank(rows[n], w, p, POINT, i, j, 0)
+        _blank(rows[n], w, p, i, j)
+        rows[n].kind, rows[n].feature = POINT, 0
         rows[n].ri, rows[n].rj = radii(w)[i], radii(w)[j]
         return n + 1
     if counts(w)[j] == 0:
@@ -279,7 +286,7 @@ def all_touching(cells: FloatArray, pos: FloatArray, vel: FloatArray, reach: flo
     """Fills rows with every place where bodies touch (gaps below `reach`, m); returns how many. Where there
     is no room left, −1."""
     w = head(cells, WORLD)
-    n = 0
+    n = np.int64(0)
     for p in range(w.pairs):
         support = pair_of(w, p).support
         if support >= 0 and support_of(w, support).over:
