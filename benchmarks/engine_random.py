@@ -26,12 +26,13 @@ from typing import Any
 from rich.progress import track
 
 from physics.engine import simulate
+from physics.scene import Block, Body, Disc, Material, Scene
 from random_scenes import scene_at
 from soundness import faults
 
 SECONDS = 2.0
-START = 300.0
-"""Seconds that a process may take for its first scene: kernels may have to be compiled."""
+START = 900.0
+"""Seconds that a process may take until it is ready: kernels may have to be compiled."""
 
 SHOWN = 12
 """Failures of a kind that are listed."""
@@ -90,31 +91,38 @@ def outcome_of(seed: int, index: int) -> Outcome:
 def run(seed: int, indices: range, timeout: float) -> Iterator[Outcome]:
     """All of them in order; the process that hangs is ended, and another goes on after it."""
     todo = iter(indices)
-    for index in todo:
+    following = next(todo, None)
+    while following is not None:
         worker, pipe = _begin(seed)
-        patience = START
-        following: int | None = index
-        while following is not None:
+        alive = True
+        while alive and following is not None:
             pipe.send(following)
-            outcome = _answer(pipe, following, patience)
+            outcome = _answer(pipe, following, timeout)
             yield outcome
-            if outcome.mode == "lost":
-                break
-            patience, following = timeout, next(todo, None)
+            alive, following = outcome.mode != "lost", next(todo, None)
         worker.kill()
         worker.join()
 
 
 def _begin(seed: int) -> tuple[Any, Connection]:
+    """A process that is ready, and the pipe to it."""
     context = get_context("spawn")
     ours, theirs = context.Pipe()
     worker = context.Process(target=_work, args=(theirs, seed), daemon=True)
     worker.start()
     theirs.close()
+    if not ours.poll(START):
+        raise SystemExit(f"a process was not ready within {START:g} s")
+    ours.recv()
     return worker, ours
 
 
 def _work(pipe: Connection, seed: int) -> None:
+    first = Body("disc", Disc(0.1), (0.0, 0.1), 1.0, 0.005, material=Material(0.5, 0.5))
+    other = Body("block", Block(((-1, -1), (1, -1), (1, 1), (-1, 1))), (0.0, -1.0), 1.0, 1.0)
+    for mode in ("exact", "robust"):
+        simulate(Scene((first, other)), 0.1, mode=mode)
+    pipe.send("ready")
     while True:
         pipe.send(outcome_of(seed, pipe.recv()))
 
