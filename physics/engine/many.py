@@ -23,13 +23,15 @@ def simulate(
 
     seconds: >= 0; rate: frames per second, > 0; accuracy: m and m/s that a step may err by (relative above 1).
     Where a formula has no value, everything stands still from then on and an event "stopped" says why.
-    Raises SceneError for times that are not such numbers, for springs too stiff for their load, and where
+    Raises SceneError for times and modes that are none, for springs too stiff for their load, and where
     exact mode was forced on more contacts than it can decide.
     """
     if not (isfinite(seconds) and isfinite(rate) and seconds >= 0 and rate > 0):
         raise SceneError(
             f"cannot move for {seconds:g} s at {rate:g} frames a second; both must be positive numbers"
         )
+    if mode not in ("auto", "exact", "robust"):
+        raise SceneError(f"there is no mode {mode!r}; there are auto, exact and robust")
     run = Simulation(scene, None if mode == "auto" else mode, accuracy)
     run.run_to(seconds)
     return run.trajectory(rate, seconds)

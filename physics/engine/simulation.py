@@ -28,8 +28,8 @@ from physics.engine.world import Names, World, start_of, world_of
 from physics.scene import Scene, SceneError
 from physics.trajectory import Event, Mode, Trajectory
 
-ACCURACY = 1e-10
-"""m and m/s a step (relative above 1): a pendulum is then right to 1e-8 after ten seconds."""
+ACCURACY = 1e-11
+"""m and m/s a step (relative above 1): a pendulum is then right to 1e-9 after ten seconds."""
 EPOCH = 0.25
 """s: clusters go on for so long before it is looked whether any have met."""
 STIFFEST = 20_000.0

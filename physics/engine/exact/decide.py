@@ -60,6 +60,7 @@ def decide(world: World, rows: Table, make: Callable[[Table], Machine], time: fl
             row["status"] = ON
             take_grip(found)
             row["grip"], row["sigma"] = found["grip"], found["sigma"]
+            _join_partner(rows, row)
         elif what == OPEN:
             row["status"] = OFF
         elif what == SLIP:
@@ -74,6 +75,15 @@ def decide(world: World, rows: Table, make: Callable[[Table], Machine], time: fl
             seen.clear()
         seen.add(state)
     raise Undecided
+
+
+def _join_partner(rows: Table, row: Any) -> None:
+    """A contact that closes beside one of the same pair that is about to slip, slips with it: two corners of one
+    side cannot do otherwise."""
+    same = (rows["source"] == row["source"]) & (rows["kind"] <= POINT) & (rows["status"] == ON)
+    for other in rows[same & (rows["grip"] == SLIDE) & (np.abs(rows["slip"]) <= SLOW)]:
+        if row["grip"] == STICK:
+            row["grip"], row["sigma"] = SLIDE, other["sigma"]
 
 
 def take_grip(row: np.void) -> None:

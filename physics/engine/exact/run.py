@@ -54,6 +54,8 @@ LARGE = 64
 them hold grows with their cube."""
 CALM = 1e-7
 """m/s and m/s²: a cluster whose smoothed motion and accelerations are below it sleeps."""
+SOLVED = 1e-12
+"""m/s and m/s²: velocities and accelerations below it are zero but for rounding, and need no smoothing."""
 SMOOTHED = 20
 """Frames of 1/60 s of which the smoothed motion keeps a trace above rounding (0.2 to the 20th)."""
 CARRIED = ("status", "grip", "sigma", "shut")
@@ -191,14 +193,16 @@ class ExactRun:
         met: set[tuple[int, int]] = set()
         for _ in range(400):
             rows = self._touching()
-            met |= {(int(row["i"]), int(row["j"])) for row in rows if row["gap"] < -TOUCHING}
+            met |= {
+                (min(row["i"], row["j"]), max(row["i"], row["j"])) for row in rows if row["gap"] < -TOUCHING
+            }
             if st.overlap(self.world.cells, rows, self.pos) <= 0.5 * TOUCHING:
                 break
         else:
             if met:
                 raise TooMuch
         for i, j in sorted(met):
-            self.tell.separated(self.time, i, j)
+            self.tell.separated(self.time, int(i), int(j))
 
     def _touching(self) -> Table:
         """Every contact, refreshed."""
@@ -228,10 +232,27 @@ class ExactRun:
             rows = rows[gone == 0]
             machine = self._machine(rows)
             de.accelerated(self.world.cells, machine.cells, self.time)
+        if self._break_overloaded(machine):
+            self._settle()
+            return
         if machine.status[0]:
             self.tell.open_forces(self.time, self.world, machine.rows)
         self.rows = machine.rows
         self._begin(machine)
+
+    def _break_overloaded(self, machine: Machine) -> bool:
+        """Breaks wires that would have to carry more than they can; whether there were any."""
+        limits = self.world.links["limit"]
+        rows = machine.rows
+        over = [
+            row
+            for row in rows[(rows["kind"] == CORD) & (rows["status"] == ON)]
+            if row["force"] > limits[row["source"]] * (1 + 1e-12)
+        ]
+        for row in over:
+            self._row_event(row, 2)
+        self.rows = rows
+        return bool(over)
 
     def _adopt(self, machine: Machine) -> None:
         n = self.names.movable
@@ -386,7 +407,8 @@ class ExactRun:
         machine = self.modes[-1].machine
         rates = np.abs(machine.slopes[0, : 2 * n])
         self.moved |= rates[:n].reshape(-1, 3).max(axis=1, initial=0.0) > CALM
-        if not self.names.timeless or rates.max(initial=0.0) > CALM or self._smoothed() > CALM**2:
+        still = rates.max(initial=0.0)
+        if not self.names.timeless or still > CALM or (still > SOLVED and self._smoothed() > CALM**2):
             return
         machine.y[n : 2 * n] = 0.0
         machine.slopes[0] = 0.0

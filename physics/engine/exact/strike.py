@@ -208,11 +208,12 @@ def overlap(cells: FloatArray, rows: Table, pos: FloatArray) -> float:
         deepest = max(deepest, -row.gap)
         if row.gap >= 0.0:
             continue
+        # Shifted only: what was drawn upright stays upright.
         give = 0.0
-        for a in range(3):
+        for a in range(2):
             give += row.J[a] ** 2 * inverse[row.i, a] + row.J[3 + a] ** 2 * inverse[row.j, a]
         if give > 0.0:
-            for a in range(3):
+            for a in range(2):
                 pos[row.i, a] -= inverse[row.i, a] * row.J[a] * row.gap / give
                 pos[row.j, a] -= inverse[row.j, a] * row.J[3 + a] * row.gap / give
     return deepest
