@@ -11,6 +11,7 @@ call and take constants from those alone.
 
 from __future__ import annotations
 
+import logging
 import shutil
 from collections.abc import Callable
 from contextlib import suppress
@@ -21,9 +22,12 @@ from typing import Any, ClassVar, TypeVar, cast
 
 import numba
 from numba.core.caching import CompileResultCacheImpl, FunctionCache
+from numba.core.event import Listener, register
 
 PREFIX = "inklined-kernels-"
 """What the directories of compiled kernels are called, before the digest."""
+
+OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": False}
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -34,31 +38,17 @@ def kernel(function: F) -> F:
     Division by zero gives inf or NaN as in IEEE 754, nothing is reordered. Where no directory can be
     written to, it is compiled in every process.
     """
-    return _compiled(function, {})
-
-
-def part(function: F) -> F:
-    """A kernel that kernels alone call. It has no entry from Python (a call from there would crash), which
-    takes half the time to compile."""
-    return _compiled(function, {"no_cpython_wrapper": True, "no_cfunc_wrapper": True})
-
-
-def _compiled(function: F, options: dict[str, bool]) -> F:
-    chosen: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": False, **options}
-    compiled: Any = numba.njit(**chosen)(function)
+    compiled: Any = numba.njit(**OPTIONS)(function)
     with suppress(RuntimeError):  # numba found no directory that it may write to
         compiled._cache = _KernelCache(function)  # what cache=True does, with numba's own class
         _delete_stale(Path(compiled._cache.cache_path))
     return cast(F, compiled)
 
 
-def inner(function: F) -> F:
-    """The same for what only kernels call: it cannot be called from Python, and is kept on disk only as part of
-    the kernels that it is compiled into. A third of the time to compile goes into what this leaves out."""
-    options: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-    chosen: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": False, **options}
-    compiled: Any = numba.njit(**chosen)(function)
-    return cast(F, compiled)
+def part(function: F) -> F:
+    """A kernel that kernels alone call. It has no entry from Python (a call from there would crash) and is kept
+    on disk only within the kernels that it is compiled into: both take half the time to compile."""
+    return cast(F, numba.njit(**OPTIONS, no_cpython_wrapper=True, no_cfunc_wrapper=True)(function))
 
 
 def accessor(function: F) -> F:
@@ -103,3 +93,22 @@ def _delete_stale(kept: Path) -> None:
     for directory in kept.parent.glob(f"{PREFIX}*"):
         if directory != kept:
             shutil.rmtree(directory, ignore_errors=True)
+
+
+class _Announcer(Listener):
+    """Says once in a process that kernels are being compiled: it takes long, and looks like a hang."""
+
+    told = False
+
+    def on_start(self, event: Any) -> None:
+        if not self.told and event.data["dispatcher"].py_func.__module__.startswith("physics."):
+            self.told = True
+            logging.getLogger("inklined").warning(
+                "Compiling the engine for this machine: once, for about a minute. Later runs start at once."
+            )
+
+    def on_end(self, event: Any) -> None:
+        pass
+
+
+register("numba:compile", _Announcer())

@@ -17,7 +17,6 @@ from physics.build import to_metres
 from physics.formula.meaning import PER_METRE
 from physics.outcome import Outcome
 from physics.pipeline import Motion
-from physics.trajectory import Energy, Trajectory
 from sketch.geometry import centroid
 from sketch.ink import FloatArray
 from sketch.page import Sketch
@@ -75,31 +74,7 @@ def same_outcome(pairs: Mapping[str, str], truth: Outcome, claim: Outcome) -> bo
 
 def until(motion: Motion, seconds: float) -> Motion:
     """The motion up to and including `seconds`; the whole of it if it is not longer."""
-    trajectory = motion.trajectory
-    n = int(np.searchsorted(trajectory.times, seconds + 1e-9, side="right"))
-    if n >= len(trajectory.times):
-        return motion
-    energy = trajectory.energy
-    cut = Trajectory(
-        times=trajectory.times[:n],
-        bodies=trajectory.bodies,
-        poses=trajectory.poses[:n],
-        velocities=trajectory.velocities[:n],
-        accelerations=trajectory.accelerations[:n],
-        forces=tuple(
-            replace(force, values=force.values[:n], points=force.points[:n]) for force in trajectory.forces
-        ),
-        events=tuple(event for event in trajectory.events if event.time <= seconds),
-        energy=Energy(
-            energy.kinetic[:n],
-            energy.potential[:n],
-            energy.elastic[:n],
-            energy.dissipated[:n],
-            energy.worked[:n],
-        ),
-        anchors={label: ends[:n] for label, ends in trajectory.anchors.items()},
-    )
-    return replace(motion, trajectory=cut)
+    return replace(motion, trajectory=motion.trajectory.until(seconds))
 
 
 def _movable(sketch: Sketch) -> set[str]:

@@ -12,6 +12,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
+
 from physics.engine.exact.touch import gaps_between
 from physics.engine.world import Names, World, start_of, world_of
 from physics.scene import Block, Body, Disc, Scene
@@ -45,7 +46,7 @@ def first_meeting(scene: Scene, strands: Sequence[Strand], begin: float, end: fl
     boxes = [_box(strand, path, bodies) for strand, path in zip(strands, paths, strict=True)]
     best: Meeting | None = None
     for (a, one), (b, other) in combinations(enumerate(strands), 2):
-        if one.run.time < end and one.run.stopped or other.run.time < end and other.run.stopped:
+        if (one.run.time < end and one.run.stopped) or (other.run.time < end and other.run.stopped):
             continue
         if np.any(boxes[a][0] > boxes[b][1]) or np.any(boxes[b][0] > boxes[a][1]):
             continue

@@ -12,7 +12,7 @@ import numpy as np
 
 from physics.engine.cells import Layout, grid, integers, line, record
 from physics.formula.kernel import branches, evaluate
-from physics.jit import accessor, inner
+from physics.jit import accessor, part
 from sketch.ink import FloatArray
 
 _INDICES = ("kind", "i", "j", "tension", "reader", "over", "broken")
@@ -177,7 +177,7 @@ def course_of(w: Any, k: int) -> Any:
     return record(w, w.courses_at + k * _COURSE, COURSE)
 
 
-@inner
+@part
 def value(w: Any, program: int, t: float, pos: FloatArray, vel: FloatArray) -> float:
     """A program's value; NaN where it has none."""
     spans = integers(w, w.spans_at, 2 * w.programs)
@@ -189,7 +189,7 @@ def value(w: Any, program: int, t: float, pos: FloatArray, vel: FloatArray) -> f
     return evaluate(ops, args, who, start, stop, t, pos, vel, stack)
 
 
-@inner
+@part
 def branch(w: Any, program: int, t: float, pos: FloatArray, vel: FloatArray) -> int:
     """Which branches a program takes, as a number; 0 where it has none to take."""
     if integers(w, w.switches_at, w.programs)[program] == 0:

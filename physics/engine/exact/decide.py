@@ -20,7 +20,7 @@ from physics.engine.exact.solve import NORMAL, TANGENT, accelerate, demand
 from physics.engine.exact.touch import TOUCHING
 from physics.engine.tables import WORLD, gravity, masses
 from physics.engine.world import IntArray, Table, World
-from physics.jit import inner, kernel
+from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
 SLOW = 1e-9
@@ -104,7 +104,7 @@ def accelerated(cells: FloatArray, memory: FloatArray, t: float) -> None:
     accelerate(w, m, t)
 
 
-@inner
+@part
 def quickest(w: Any, m: Any) -> float:
     """The greatest acceleration about, m/s²."""
     most = max(1e-12, abs(gravity(w)[0]), abs(gravity(w)[1]))

@@ -52,7 +52,7 @@ from physics.engine.exact.watch import (
     watch,
 )
 from physics.engine.tables import WORLD, gravity, masses, pair_of
-from physics.jit import inner, kernel
+from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
 REACHED, FULL, HAPPENED, MET, SWITCHED, STOPPED, CRAWLS = 0, 1, 2, 3, 4, 5, 6
@@ -125,7 +125,7 @@ def flow(cells: FloatArray, memory: FloatArray, until: float, accuracy: float) -
         return code
 
 
-@inner
+@part
 def _accept(m: Any, t: float, h: float) -> None:
     """Records the step just made dense, and makes its end the state."""
     n = recorded(m)[0]
@@ -141,7 +141,7 @@ def _accept(m: Any, t: float, h: float) -> None:
         rate[k] = last[k]
 
 
-@inner
+@part
 def _first(w: Any, m: Any, t: float, h: float) -> tuple[int, float]:
     """What happens first within the step, and at which share of it."""
     code, share = REACHED, 1.0
@@ -173,7 +173,7 @@ def _first(w: Any, m: Any, t: float, h: float) -> tuple[int, float]:
     return code, share
 
 
-@inner
+@part
 def _look(w: Any, m: Any, k: int, t: float, h: float, x: float) -> float:
     """Watched function k at share x of the step, by the dense output. Uses `newest(m)`'s scratch twin."""
     scratch = slope(m, 1)
@@ -184,7 +184,7 @@ def _look(w: Any, m: Any, k: int, t: float, h: float, x: float) -> float:
     return after(m)[k]
 
 
-@inner
+@part
 def _crossing(w: Any, m: Any, k: int, t: float, h: float) -> float:
     """The share of the step at which watched function k crosses zero (or its tolerance, where it begins
     at zero): the Illinois method. Leaves after(m) as it was."""
@@ -219,7 +219,7 @@ def _crossing(w: Any, m: Any, k: int, t: float, h: float) -> float:
     return high
 
 
-@inner
+@part
 def _switching(w: Any, m: Any, t: float, h: float) -> float:
     """The share of the step just after which a formula takes another branch, by bisection."""
     low, high = 0.0, 1.0
@@ -241,7 +241,7 @@ def _switching(w: Any, m: Any, t: float, h: float) -> float:
     return high
 
 
-@inner
+@part
 def _gap(w: Any, m: Any, p: int, joined: bool, x: float) -> float:
     """The gap of pair p at share x of the step, m."""
     scratch = slope(m, 1)
@@ -250,7 +250,7 @@ def _gap(w: Any, m: Any, p: int, joined: bool, x: float) -> float:
     return pair_gap(w, m, p, joined)
 
 
-@inner
+@part
 def _meeting(w: Any, m: Any, h: float, most: float) -> tuple[float, int]:
     """(share of the step at which two bodies first meet, at most `most`; the pair); (2, −1) if none do."""
     n, samples = _candidates(w, m, h)
@@ -285,7 +285,7 @@ def _meeting(w: Any, m: Any, h: float, most: float) -> tuple[float, int]:
     return 2.0, -1
 
 
-@inner
+@part
 def _candidates(w: Any, m: Any, h: float) -> tuple[int, int]:
     """Lists the pairs that may meet within the step, with their gaps at its start; how many, and how many
     samples it takes not to miss one."""
@@ -309,7 +309,7 @@ def _candidates(w: Any, m: Any, h: float) -> tuple[int, int]:
         gap = pair_gap(w, m, p, touched(m, p))
         if gap > way:
             continue
-        samples = max(samples, min(SAMPLES, int(ceil(way / (0.25 * pair.size)))))
+        samples = max(samples, min(SAMPLES, ceil(way / (0.25 * pair.size))))
         candidates(m)[n] = p
         gaps(m)[n] = gap
         olds(m)[n] = gap
@@ -317,7 +317,7 @@ def _candidates(w: Any, m: Any, h: float) -> tuple[int, int]:
     return n, samples
 
 
-@inner
+@part
 def _meets(w: Any, m: Any, p: int, low: float, high: float) -> float:
     """The share between low and high at which the gap of pair p closes; it is closed at high.
 
@@ -358,7 +358,7 @@ def _meets(w: Any, m: Any, p: int, low: float, high: float) -> float:
     return high
 
 
-@inner
+@part
 def _grazes(w: Any, m: Any, p: int, low: float, high: float) -> float:
     """The same where the gap is open at low and at high and least in between; 2 if it stays open."""
     joined = touched(m, p)
@@ -380,7 +380,7 @@ def _grazes(w: Any, m: Any, p: int, low: float, high: float) -> float:
     return 2.0
 
 
-@inner
+@part
 def _sharpen(
     w: Any,
     m: Any,

@@ -10,8 +10,8 @@ from __future__ import annotations
 from math import hypot
 from typing import Any
 
-from physics.engine.exact.rows import turned, wrapped
 from physics.engine.cells import head
+from physics.engine.exact.rows import turned, wrapped
 from physics.engine.tables import (
     WORLD,
     corners,
@@ -27,11 +27,11 @@ from physics.engine.tables import (
     value,
 )
 from physics.engine.world import SPRING, WIRE
-from physics.jit import inner, kernel
+from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
 
-@inner
+@part
 def put(force: FloatArray, i: int, fx: float, fy: float, rx: float, ry: float) -> None:
     """Adds a force on body i that acts at (rx, ry) from its centre of mass."""
     force[i, 0] += fx
@@ -39,7 +39,7 @@ def put(force: FloatArray, i: int, fx: float, fy: float, rx: float, ry: float) -
     force[i, 2] += rx * fy - ry * fx
 
 
-@inner
+@part
 def follow(w: Any, t: float, pos: FloatArray, vel: FloatArray) -> None:
     """Puts bodies under a student's equation where it says they are, and gives them its velocity."""
     for k in range(w.courses):
@@ -50,7 +50,7 @@ def follow(w: Any, t: float, pos: FloatArray, vel: FloatArray) -> None:
             vel[course.body, course.axis] = value(w, course.velocity, t, pos, vel)
 
 
-@inner
+@part
 def ends_of(
     w: Any, k: int, pos: FloatArray
 ) -> tuple[float, float, float, float, float, float, float, float, float]:
@@ -76,7 +76,7 @@ def ends_of(
     return ax, ay, bx, by, ux, uy, -ux, -uy, length
 
 
-@inner
+@part
 def pull_of(w: Any, k: int, t: float, pos: FloatArray, vel: FloatArray) -> tuple[float, float]:
     """(the force with which link k pulls its ends together, how fast it lengthens); a wire's is the student's."""
     link = link_of(w, k)
@@ -89,14 +89,14 @@ def pull_of(w: Any, k: int, t: float, pos: FloatArray, vel: FloatArray) -> tuple
     return value(w, link.tension, t, pos, vel), growth
 
 
-@inner
+@part
 def pulls(w: Any, k: int) -> bool:
     """Whether link k pulls by a law of its own: a spring, or a wire whose tension the student gives."""
     link = link_of(w, k)
     return link.broken == 0 and (link.kind == SPRING or (link.kind == WIRE and link.tension >= 0))
 
 
-@inner
+@part
 def add(w: Any, t: float, pos: FloatArray, vel: FloatArray, force: FloatArray) -> None:
     """Sums all forces but the constraints' into force, (bodies, 3): N, N, N m."""
     gx, gy = gravity(w)[0], gravity(w)[1]
@@ -127,7 +127,7 @@ def add(w: Any, t: float, pos: FloatArray, vel: FloatArray, force: FloatArray) -
             force[support.j, 1] -= size * ny
 
 
-@inner
+@part
 def normal_of(w: Any, k: int, pos: FloatArray) -> tuple[float, float]:
     """The direction of a given normal force: out of the edge, or along the line of centres from a disc."""
     support = support_of(w, k)
@@ -138,7 +138,7 @@ def normal_of(w: Any, k: int, pos: FloatArray) -> tuple[float, float]:
     return (dx / distance, dy / distance) if distance > 0.0 else (0.0, 1.0)
 
 
-@inner
+@part
 def clearance(w: Any, k: int, pos: FloatArray, vel: FloatArray) -> tuple[float, float, float]:
     """Of given normal force k: (gap between its body and the edge, m, negative: sunk in; how fast the gap
     opens, m/s; how far along the edge the centre of mass stands, m)."""
@@ -167,13 +167,13 @@ def clearance(w: Any, k: int, pos: FloatArray, vel: FloatArray) -> tuple[float, 
     return gap + lowest, rate + vel[i, 2] * lever, along
 
 
-@inner
+@part
 def ledger_size(w: Any) -> int:
     """Entries of the ledger: heat, then the work of each push, link, given normal force and course."""
     return 1 + w.pushes + w.links + w.supports + w.courses
 
 
-@inner
+@part
 def powers(
     w: Any,
     t: float,

@@ -41,11 +41,11 @@ from physics.engine.exact.rows import refresh
 from physics.engine.exact.solve import accelerate, solve
 from physics.engine.exact.tableau import E3, E5, A, C, D
 from physics.engine.tables import WORLD, inverses
-from physics.jit import inner, kernel
+from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
 
-@inner
+@part
 def unpack(y: FloatArray, movable: int, pos: FloatArray, vel: FloatArray) -> None:
     """A state's poses and velocities."""
     for i in range(movable):
@@ -54,7 +54,7 @@ def unpack(y: FloatArray, movable: int, pos: FloatArray, vel: FloatArray) -> Non
             vel[i, a] = y[3 * (movable + i) + a]
 
 
-@inner
+@part
 def derive(w: Any, m: Any, t: float, y: FloatArray, rates: FloatArray) -> bool:
     """dy/dt, (size,). False where a formula or a force has no value."""
     pos, vel, acc, power_of = poses(m), velocities(m), accelerations(m), power(m)
@@ -73,7 +73,7 @@ def derive(w: Any, m: Any, t: float, y: FloatArray, rates: FloatArray) -> bool:
     return fine
 
 
-@inner
+@part
 def _advance(y: FloatArray, rates: FloatArray, stage: int, h: float, new: FloatArray) -> None:
     """new ← the state at a stage: y + h Σ a rates."""
     for k in range(len(y)):
@@ -87,7 +87,7 @@ def _advance(y: FloatArray, rates: FloatArray, stage: int, h: float, new: FloatA
         new[k] = y[k] + h * new[k]
 
 
-@inner
+@part
 def step(w: Any, m: Any, t: float, h: float, accuracy: float) -> float:
     """Takes the state on by h into `newest`, projected; slope 0 must be the derivative at the start.
 
@@ -105,7 +105,7 @@ def step(w: Any, m: Any, t: float, h: float, accuracy: float) -> float:
     return _error(m, h, accuracy)
 
 
-@inner
+@part
 def _error(m: Any, h: float, accuracy: float) -> float:
     y, new, rates = state(m), newest(m), slopes(m)
     n = 6 * m.movable
@@ -123,7 +123,7 @@ def _error(m: Any, h: float, accuracy: float) -> float:
     return abs(h) * fifth / np.sqrt((fifth + 0.01 * third) * n)
 
 
-@inner
+@part
 def project(w: Any, m: Any, t: float, y: FloatArray) -> None:
     """Brings a state back onto the rows that hold, and onto courses: first positions, then velocities."""
     pos, vel, inverse = poses(m), velocities(m), inverses(w)
@@ -159,7 +159,7 @@ def project(w: Any, m: Any, t: float, y: FloatArray) -> None:
             y[3 * (movable + i) + a] = vel[i, a]
 
 
-@inner
+@part
 def densify(w: Any, m: Any, t: float, h: float) -> bool:
     """Works out the dense output of the step just taken, so that `between` gives any moment of it."""
     y, new, rates, dense = state(m), newest(m), slopes(m), dense_of(m)
@@ -182,7 +182,7 @@ def densify(w: Any, m: Any, t: float, h: float) -> bool:
     return True
 
 
-@inner
+@part
 def between(dense: FloatArray, x: float, y: FloatArray) -> None:
     """The state at share x of a step, by its dense output, (8, size)."""
     for k in range(len(y)):

@@ -15,6 +15,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+
 from physics.engine.cells import integers
 from physics.engine.exact import forces
 from physics.engine.exact.machine import (
@@ -37,7 +38,7 @@ from physics.engine.exact.machine import (
 from physics.engine.exact.rows import GIVEN, ON, SLIDE, STICK, refresh
 from physics.engine.tables import course_of, inverses, support_of, value
 from physics.engine.world import Table
-from physics.jit import inner
+from physics.jit import part
 from sketch.ink import FloatArray
 
 SINGULAR = 1e-10
@@ -102,7 +103,7 @@ def _banded(
     return [labels[k] for k in order], moved
 
 
-@inner
+@part
 def accelerate(w: Any, m: Any, t: float) -> float:
     """Accelerations of this moment's poses and velocities; rows get their forces. Returns the heat of
     friction, W. Poses and velocities are first put where courses say."""
@@ -157,7 +158,7 @@ def accelerate(w: Any, m: Any, t: float) -> float:
     return heat
 
 
-@inner
+@part
 def demand(row: Any, tangent: int, acc: FloatArray) -> float:
     """The second derivative of a row's gap, or of its slip, under these accelerations, m/s²."""
     i, j = row.i, row.j
@@ -171,7 +172,7 @@ def demand(row: Any, tangent: int, acc: FloatArray) -> float:
     return total + row.c
 
 
-@inner
+@part
 def _rub_given(row: Any, w: Any, t: float, pos: FloatArray, vel: FloatArray, force: FloatArray) -> None:
     """Friction's bound under a given normal force; where it slips, its friction is a force like any other."""
     size = value(w, support_of(w, row.source).force, t, pos, vel)
@@ -183,13 +184,13 @@ def _rub_given(row: Any, w: Any, t: float, pos: FloatArray, vel: FloatArray, for
             force[row.j, a] += row.T[3 + a] * row.rub
 
 
-@inner
+@part
 def _along(row: Any, tangent: int, at: int) -> float:
     """Entry `at` of what a row's line of the matrix is made of."""
     return row.T[at] if tangent else row.J[at]
 
 
-@inner
+@part
 def _across(row: Any, tangent: int, at: int) -> float:
     """The same of its column: what a unit of the unknown pushes, friction of a slipping contact included."""
     if tangent:
@@ -199,7 +200,7 @@ def _across(row: Any, tangent: int, at: int) -> float:
     return row.J[at]
 
 
-@inner
+@part
 def coupling(first: Any, tangent: int, second: Any, other: int, inverse: FloatArray) -> float:
     """How much a unit of the second unknown accelerates along the first."""
     total = 0.0
@@ -216,7 +217,7 @@ def coupling(first: Any, tangent: int, second: Any, other: int, inverse: FloatAr
     return total
 
 
-@inner
+@part
 def solve(w: Any, m: Any) -> None:
     """found ← the forces that give the rows what `given` asks, the smallest where many do."""
     inverse = inverses(w)
@@ -230,7 +231,7 @@ def solve(w: Any, m: Any) -> None:
     _solve(m)
 
 
-@inner
+@part
 def _fill(m: Any, inverse: FloatArray) -> None:
     a_matrix, start, owners, tangent = matrix(m), starts(m), unknown_rows(m), tangents(m)
     for a in range(m.unknowns):
@@ -246,7 +247,7 @@ def _fill(m: Any, inverse: FloatArray) -> None:
             a_matrix[b, a] = coupling(second, tangent[b], first, tangent[a], inverse)
 
 
-@inner
+@part
 def _factor(m: Any, shift: float) -> bool:
     """LU of matrix + shift · 1 within its profile; tells whether a pivot vanished."""
     full, lu, start = matrix(m), factor(m), starts(m)
@@ -269,7 +270,7 @@ def _factor(m: Any, shift: float) -> bool:
     return False
 
 
-@inner
+@part
 def _substitute(m: Any) -> None:
     """change ← (LU)⁻¹ change."""
     lu, start, x = factor(m), starts(m), change(m)
@@ -282,7 +283,7 @@ def _substitute(m: Any) -> None:
             x[k] -= lu[k, a] * x[a]
 
 
-@inner
+@part
 def _residual(m: Any) -> None:
     """change ← given − matrix · found, within the profile."""
     full, start, rest, goal, solution = matrix(m), starts(m), change(m), given(m), found(m)
@@ -295,7 +296,7 @@ def _residual(m: Any) -> None:
             rest[b] -= full[b, a] * solution[a]
 
 
-@inner
+@part
 def _solve(m: Any) -> None:
     full, solution, step = matrix(m), found(m), change(m)
     n = m.unknowns

@@ -19,7 +19,7 @@ from physics.engine.exact.rows import CORD, GIVEN, PIN_X, POINT, refresh, refres
 from physics.engine.exact.touch import TOUCHING
 from physics.engine.tables import WORLD, inverses, masses
 from physics.engine.world import Table
-from physics.jit import inner, kernel
+from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
 APPROACH = 1e-9
@@ -92,7 +92,7 @@ def strike(
     return energy - kinetic(w, vel)
 
 
-@inner
+@part
 def _hold(w: Any, rows: Table, pos: FloatArray, vel: FloatArray) -> None:
     """Keeps shut what was hit, or holds taut, and would open by less than `RISE` before it is pressed shut again:
     two wires that each tauten as the other slackens would go on without end."""
@@ -103,7 +103,7 @@ def _hold(w: Any, rows: Table, pos: FloatArray, vel: FloatArray) -> None:
         row.bound = 0.0
         if row.kind == GIVEN or row.gap > TOUCHING:
             continue
-        if row.kind >= PIN_X or row.kind == CORD and abs(row.rate) <= APPROACH:
+        if row.kind >= PIN_X or (row.kind == CORD and abs(row.rate) <= APPROACH):
             row.bound, row.along = 1.0, 0.0
         elif row.rate > APPROACH and row.rate**2 < -2.0 * row.press * RISE and (row.kind == CORD or row.shut):
             row.bound, row.along = 2.0, 0.0
@@ -112,7 +112,7 @@ def _hold(w: Any, rows: Table, pos: FloatArray, vel: FloatArray) -> None:
         _sweep(w, rows, vel)
 
 
-@inner
+@part
 def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
     """Impulses of the rows that take part, one after another, until none changes any more."""
     inverse = inverses(w)
@@ -158,7 +158,7 @@ def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
             return
 
 
-@inner
+@part
 def _calm(w: Any, rows: Table, vel: FloatArray, before: FloatArray, most: float) -> None:
     """From the velocities before, as much of the way from the dead impact to the lively one as leaves the
     kinetic energy at `most`."""
@@ -182,7 +182,7 @@ def _calm(w: Any, rows: Table, vel: FloatArray, before: FloatArray, most: float)
             vel[i, a] += share * (lively[i, a] - vel[i, a])
 
 
-@inner
+@part
 def kinetic(w: Any, vel: FloatArray) -> float:
     """Of all that can move, J; along a course too."""
     total = 0.0

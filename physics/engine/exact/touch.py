@@ -27,7 +27,7 @@ from physics.engine.tables import (
     support_of,
 )
 from physics.engine.world import IntArray, Table
-from physics.jit import inner, kernel
+from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
 TOUCHING = 1e-8
@@ -36,20 +36,20 @@ SAME = 1e-7
 """m: points of contact closer than this are one."""
 
 
-@inner
-def within(w: Any, pos: FloatArray, i: int, x: float, y: float) -> tuple[float, float]:
+@part
+def within(pos: FloatArray, i: int, x: float, y: float) -> tuple[float, float]:
     """A point of the world in the frame of body i."""
     return turned(-pos[i, 2], x - pos[i, 0], y - pos[i, 1])
 
 
-@inner
+@part
 def corner(w: Any, pos: FloatArray, i: int, q: int) -> tuple[float, float]:
     """Corner q (a row of `corners`) of body i in the world."""
     x, y = turned(pos[i, 2], corners(w)[q, 0], corners(w)[q, 1])
     return pos[i, 0] + x, pos[i, 1] + y
 
 
-@inner
+@part
 def outside(w: Any, i: int, x: float, y: float) -> tuple[float, int]:
     """How far outside block i its widest face keeps a point (x, y) of its frame, m, and that face."""
     best, face = -1e300, firsts(w)[i]
@@ -61,7 +61,7 @@ def outside(w: Any, i: int, x: float, y: float) -> tuple[float, int]:
     return best, face
 
 
-@inner
+@part
 def nearest(w: Any, i: int, x: float, y: float) -> tuple[float, int, int]:
     """Signed distance of a point of block i's frame from the block, the face it is nearest to, and the
     corner, −1 where it is nearest to the face itself."""
@@ -83,12 +83,12 @@ def nearest(w: Any, i: int, x: float, y: float) -> tuple[float, int, int]:
     return distance, found, at
 
 
-@inner
+@part
 def widest(w: Any, pos: FloatArray, i: int, j: int) -> tuple[float, int]:
     """The face of block i that keeps block j farthest away, and how far, m."""
     best, face = -1e300, firsts(w)[i]
     c, s = turned(pos[j, 2] - pos[i, 2], 1.0, 0.0)
-    ox, oy = within(w, pos, i, pos[j, 0], pos[j, 1])
+    ox, oy = within(pos, i, pos[j, 0], pos[j, 1])
     for q in range(firsts(w)[i], firsts(w)[i] + counts(w)[i]):
         nx, ny = normals(w)[q, 0], normals(w)[q, 1]
         # The normal in j's frame, so that j's corners need no turning.
@@ -102,21 +102,21 @@ def widest(w: Any, pos: FloatArray, i: int, j: int) -> tuple[float, int]:
     return best, face
 
 
-@inner
+@part
 def separation(w: Any, pos: FloatArray, i: int, j: int) -> float:
     """The gap between two bodies, m; between blocks never more than it is, negative where they overlap."""
     if counts(w)[i] == 0 and counts(w)[j] == 0:
         return hypot(pos[j, 0] - pos[i, 0], pos[j, 1] - pos[i, 1]) - radii(w)[i] - radii(w)[j]
     if counts(w)[j] == 0:
-        x, y = within(w, pos, i, pos[j, 0], pos[j, 1])
+        x, y = within(pos, i, pos[j, 0], pos[j, 1])
         return nearest(w, i, x, y)[0] - radii(w)[j]
     if counts(w)[i] == 0:
-        x, y = within(w, pos, j, pos[i, 0], pos[i, 1])
+        x, y = within(pos, j, pos[i, 0], pos[i, 1])
         return nearest(w, j, x, y)[0] - radii(w)[i]
     return max(widest(w, pos, i, j)[0], widest(w, pos, j, i)[0])
 
 
-@inner
+@part
 def newcomers(w: Any, m: Any, i: int, j: int, p: int) -> float:
     """The gap between two blocks that touch already, but for the corners that do: the least distance by
     which another corner of either is outside the other, m. Discs touch at one place only: infinite."""
@@ -136,12 +136,12 @@ def newcomers(w: Any, m: Any, i: int, j: int, p: int) -> float:
                 if row.source == p and row.kind == FACE and hypot(row.px - px, row.py - py) < 1e-5:
                     known = True
             if not known:
-                x, y = within(w, pos, one, px, py)
+                x, y = within(pos, one, px, py)
                 least = min(least, outside(w, one, x, y)[0])
     return least
 
 
-@inner
+@part
 def _blank(row: Any, w: Any, p: int, i: int, j: int) -> None:
     pair = pair_of(w, p)
     row.i, row.j, row.source = i, j, p
@@ -156,11 +156,11 @@ def _blank(row: Any, w: Any, p: int, i: int, j: int) -> None:
     row.force, row.rub, row.bound = 0.0, 0.0, 0.0
 
 
-@inner
+@part
 def _disc_on_block(
     w: Any, pos: FloatArray, vel: FloatArray, p: int, i: int, j: int, reach: float, rows: Table, n: int
 ) -> int:
-    x, y = within(w, pos, i, pos[j, 0], pos[j, 1])
+    x, y = within(pos, i, pos[j, 0], pos[j, 1])
     distance, face, at = nearest(w, i, x, y)
     if distance - radii(w)[j] > reach:
         return n
@@ -188,7 +188,7 @@ def _disc_on_block(
     return n + 1
 
 
-@inner
+@part
 def _corner_on_face(
     w: Any,
     pos: FloatArray,
@@ -227,7 +227,7 @@ def _corner_on_face(
     return n + 1
 
 
-@inner
+@part
 def _block_on_block(
     w: Any, pos: FloatArray, vel: FloatArray, p: int, i: int, j: int, reach: float, rows: Table, n: int
 ) -> int:
@@ -259,7 +259,7 @@ def _block_on_block(
     return n
 
 
-@inner
+@part
 def touching(w: Any, pos: FloatArray, vel: FloatArray, p: int, reach: float, rows: Table, n: int) -> int:
     """Adds to rows[n:] the places where pair p touches (gaps below `reach`, m); returns the new n."""
     i, j = pair_of(w, p).i, pair_of(w, p).j

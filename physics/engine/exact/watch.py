@@ -27,7 +27,7 @@ from physics.engine.tables import (
     support_of,
 )
 from physics.engine.world import WIRE, IntArray
-from physics.jit import inner
+from physics.jit import part
 from sketch.ink import FloatArray
 
 NOTHING = 1e300
@@ -40,13 +40,13 @@ SHARE = 1e-10
 """The same of a force, as a share of the greatest one."""
 
 
-@inner
+@part
 def watches(w: Any, rows: int) -> int:
     """How many functions `watch` fills in, for so many rows."""
     return 3 * rows + w.links + 2 * w.supports
 
 
-@inner
+@part
 def watch(w: Any, m: Any, greatest: float, seen: FloatArray) -> None:
     """Values at this moment, for rows as last refreshed and solved, each in units of its tolerance.
 
@@ -96,7 +96,7 @@ def watch(w: Any, m: Any, greatest: float, seen: FloatArray) -> None:
             seen[at + 2 * k + 1] = min(sunk, risen)
 
 
-@inner
+@part
 def _round_corner(w: Any, pos: FloatArray, i: int, feature: int, j: int) -> float:
     """How far the centre of a disc j on a corner of block i is from coming to lie over a face again, m."""
     low, n = firsts(w)[i], counts(w)[i]
@@ -109,14 +109,14 @@ def _round_corner(w: Any, pos: FloatArray, i: int, feature: int, j: int) -> floa
     return min(-on_next, on_last)
 
 
-@inner
+@part
 def decisions(w: Any, m: Any, t: float, taken: IntArray) -> None:
     """Which branches the formulas take at this moment, one number each."""
     for p in range(w.programs):
         taken[p] = branch(w, p, t, poses(m), velocities(m))
 
 
-@inner
+@part
 def touched(m: Any, p: int) -> bool:
     """Whether a pair has rows of contact."""
     for k in range(m.rows):
@@ -126,7 +126,7 @@ def touched(m: Any, p: int) -> bool:
     return False
 
 
-@inner
+@part
 def pair_gap(w: Any, m: Any, p: int, joined: bool) -> float:
     """What is watched of a pair, m: its gap, or where it touches already, that of what does not yet."""
     i, j = pair_of(w, p).i, pair_of(w, p).j
@@ -135,7 +135,7 @@ def pair_gap(w: Any, m: Any, p: int, joined: bool) -> float:
     return newcomers(w, m, i, j, p)
 
 
-@inner
+@part
 def quickness(w: Any, m: Any, p: int) -> float:
     """A bound on how fast any points of a pair close, m/s, at this moment."""
     i, j, vel = pair_of(w, p).i, pair_of(w, p).j, velocities(m)
@@ -143,7 +143,7 @@ def quickness(w: Any, m: Any, p: int) -> float:
     return speed + abs(vel[i, 2]) * reaches(w)[i] + abs(vel[j, 2]) * reaches(w)[j]
 
 
-@inner
+@part
 def excused(w: Any, p: int) -> bool:
     """Whether a given normal force stands in for the contact of a pair."""
     support = pair_of(w, p).support
