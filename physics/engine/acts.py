@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from physics.engine.forces import ends_of, normal_of, pull_of, pulls, value
-from physics.engine.rows import turned
+from physics.engine.robust.forces import ends_of, normal_of, pull_of, pulls, value
+from physics.engine.robust.rows import turned
 from physics.engine.world import SPRING, WIRE, Names, World
 from physics.jit import kernel
 from sketch.ink import FloatArray

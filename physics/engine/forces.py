@@ -8,22 +8,30 @@ is NaN, which the step that asked will notice.
 from __future__ import annotations
 
 from math import hypot
+from typing import Any
 
+from physics.engine.cells import head
 from physics.engine.rows import turned, wrapped
-from physics.engine.world import SPRING, WIRE, World
-from physics.formula.kernel import evaluate
-from physics.jit import kernel
+from physics.engine.tables import (
+    WORLD,
+    corners,
+    counts,
+    course_of,
+    firsts,
+    gravity,
+    link_of,
+    masses,
+    push_of,
+    radii,
+    support_of,
+    value,
+)
+from physics.engine.world import SPRING, WIRE
+from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
 
-@kernel
-def value(world: World, program: int, t: float, pos: FloatArray, vel: FloatArray) -> float:
-    """A program's value; NaN where it has none."""
-    start, stop = world.spans[program, 0], world.spans[program, 1]
-    return evaluate(world.ops, world.args, world.who, start, stop, t, pos, vel, world.stack)
-
-
-@kernel
+@part
 def put(force: FloatArray, i: int, fx: float, fy: float, rx: float, ry: float) -> None:
     """Adds a force on body i that acts at (rx, ry) from its centre of mass."""
     force[i, 0] += fx
@@ -31,29 +39,29 @@ def put(force: FloatArray, i: int, fx: float, fy: float, rx: float, ry: float) -
     force[i, 2] += rx * fy - ry * fx
 
 
-@kernel
-def follow(world: World, t: float, pos: FloatArray, vel: FloatArray) -> None:
+@part
+def follow(w: Any, t: float, pos: FloatArray, vel: FloatArray) -> None:
     """Puts bodies under a student's equation where it says they are, and gives them its velocity."""
-    for k in range(len(world.courses)):
-        course = world.courses[k]
+    for k in range(w.courses):
+        course = course_of(w, k)
         if course.on:
             if course.position >= 0:
-                pos[course.body, course.axis] = value(world, course.position, t, pos, vel)
-            vel[course.body, course.axis] = value(world, course.velocity, t, pos, vel)
+                pos[course.body, course.axis] = value(w, course.position, t, pos, vel)
+            vel[course.body, course.axis] = value(w, course.velocity, t, pos, vel)
 
 
-@kernel
+@part
 def ends_of(
-    world: World, k: int, pos: FloatArray
+    w: Any, k: int, pos: FloatArray
 ) -> tuple[float, float, float, float, float, float, float, float, float]:
     """Of link k: levers of its two ends (world frame), unit vectors along which each end is pulled, length."""
-    link = world.links[k]
+    link = link_of(w, k)
     i, j = link.i, link.j
     ax, ay = turned(pos[i, 2], link.ax, link.ay)
     bx, by = turned(pos[j, 2], link.bx, link.by)
     if link.over >= 0:
         wheel = link.over
-        radius, cx, cy = world.radius[wheel], pos[wheel, 0], pos[wheel, 1]
+        radius, cx, cy = radii(w)[wheel], pos[wheel, 0], pos[wheel, 1]
         first, ux, uy, touch, _ = wrapped(pos[i, 0] + ax, pos[i, 1] + ay, cx, cy, radius, link.sense)
         second, wx, wy, leave, _ = wrapped(pos[j, 0] + bx, pos[j, 1] + by, cx, cy, radius, -link.sense)
         arc = link.sense * (leave - touch)
@@ -68,49 +76,50 @@ def ends_of(
     return ax, ay, bx, by, ux, uy, -ux, -uy, length
 
 
-@kernel
-def pull_of(world: World, k: int, t: float, pos: FloatArray, vel: FloatArray) -> tuple[float, float]:
+@part
+def pull_of(w: Any, k: int, t: float, pos: FloatArray, vel: FloatArray) -> tuple[float, float]:
     """(the force with which link k pulls its ends together, how fast it lengthens); a wire's is the student's."""
-    link = world.links[k]
-    ax, ay, bx, by, ux, uy, wx, wy, length = ends_of(world, k, pos)
+    link = link_of(w, k)
+    ax, ay, bx, by, ux, uy, wx, wy, length = ends_of(w, k, pos)
     i, j = link.i, link.j
     growth = -ux * (vel[i, 0] - vel[i, 2] * ay) - uy * (vel[i, 1] + vel[i, 2] * ax)
     growth -= wx * (vel[j, 0] - vel[j, 2] * by) + wy * (vel[j, 1] + vel[j, 2] * bx)
     if link.kind == SPRING:
         return link.stiffness * (length - link.rest) + link.damping * growth, growth
-    return value(world, link.tension, t, pos, vel), growth
+    return value(w, link.tension, t, pos, vel), growth
 
 
-@kernel
-def pulls(world: World, k: int) -> bool:
+@part
+def pulls(w: Any, k: int) -> bool:
     """Whether link k pulls by a law of its own: a spring, or a wire whose tension the student gives."""
-    link = world.links[k]
+    link = link_of(w, k)
     return link.broken == 0 and (link.kind == SPRING or (link.kind == WIRE and link.tension >= 0))
 
 
-@kernel
-def add(world: World, t: float, pos: FloatArray, vel: FloatArray, force: FloatArray) -> None:
+@part
+def add(w: Any, t: float, pos: FloatArray, vel: FloatArray, force: FloatArray) -> None:
     """Sums all forces but the constraints' into force, (bodies, 3): N, N, N m."""
-    gx, gy = world.gravity[0], world.gravity[1]
+    gx, gy = gravity(w)[0], gravity(w)[1]
+    mass = masses(w)
     for i in range(len(force)):
-        force[i, 0] = world.mass[i, 0] * gx
-        force[i, 1] = world.mass[i, 0] * gy
+        force[i, 0] = mass[i, 0] * gx
+        force[i, 1] = mass[i, 0] * gy
         force[i, 2] = 0.0
-    for k in range(len(world.links)):
-        if pulls(world, k):
-            pull, _ = pull_of(world, k, t, pos, vel)
-            ax, ay, bx, by, ux, uy, wx, wy, _ = ends_of(world, k, pos)
-            put(force, world.links[k].i, pull * ux, pull * uy, ax, ay)
-            put(force, world.links[k].j, pull * wx, pull * wy, bx, by)
-    for k in range(len(world.pushes)):
-        push = world.pushes[k]
-        force[push.body, 0] += value(world, push.x, t, pos, vel)
-        force[push.body, 1] += value(world, push.y, t, pos, vel)
-    for k in range(len(world.supports)):
-        support = world.supports[k]
+    for k in range(w.links):
+        if pulls(w, k):
+            pull, _ = pull_of(w, k, t, pos, vel)
+            ax, ay, bx, by, ux, uy, wx, wy, _ = ends_of(w, k, pos)
+            put(force, link_of(w, k).i, pull * ux, pull * uy, ax, ay)
+            put(force, link_of(w, k).j, pull * wx, pull * wy, bx, by)
+    for k in range(w.pushes):
+        push = push_of(w, k)
+        force[push.body, 0] += value(w, push.x, t, pos, vel)
+        force[push.body, 1] += value(w, push.y, t, pos, vel)
+    for k in range(w.supports):
+        support = support_of(w, k)
         if support.over:
-            size = value(world, support.force, t, pos, vel)
-            nx, ny = normal_of(world, k, pos)
+            size = value(w, support.force, t, pos, vel)
+            nx, ny = normal_of(w, k, pos)
             # On both centres of mass: the student speaks of points.
             force[support.i, 0] += size * nx
             force[support.i, 1] += size * ny
@@ -118,10 +127,10 @@ def add(world: World, t: float, pos: FloatArray, vel: FloatArray, force: FloatAr
             force[support.j, 1] -= size * ny
 
 
-@kernel
-def normal_of(world: World, k: int, pos: FloatArray) -> tuple[float, float]:
+@part
+def normal_of(w: Any, k: int, pos: FloatArray) -> tuple[float, float]:
     """The direction of a given normal force: out of the edge, or along the line of centres from a disc."""
-    support = world.supports[k]
+    support = support_of(w, k)
     if support.length > 0.0:
         return turned(pos[support.j, 2], support.nx, support.ny)
     dx, dy = pos[support.i, 0] - pos[support.j, 0], pos[support.i, 1] - pos[support.j, 1]
@@ -129,44 +138,44 @@ def normal_of(world: World, k: int, pos: FloatArray) -> tuple[float, float]:
     return (dx / distance, dy / distance) if distance > 0.0 else (0.0, 1.0)
 
 
-@kernel
-def clearance(world: World, k: int, pos: FloatArray, vel: FloatArray) -> tuple[float, float, float]:
+@part
+def clearance(w: Any, k: int, pos: FloatArray, vel: FloatArray) -> tuple[float, float, float]:
     """Of given normal force k: (gap between its body and the edge, m, negative: sunk in; how fast the gap
     opens, m/s; how far along the edge the centre of mass stands, m)."""
-    support = world.supports[k]
+    support = support_of(w, k)
     i, j = support.i, support.j
-    nx, ny = normal_of(world, k, pos)
+    nx, ny = normal_of(w, k, pos)
     dx, dy = pos[i, 0] - pos[j, 0], pos[i, 1] - pos[j, 1]
     ux, uy = vel[i, 0] - vel[j, 0], vel[i, 1] - vel[j, 1]
     along = 0.0
-    gap = hypot(dx, dy) - world.radius[j]
+    gap = hypot(dx, dy) - radii(w)[j]
     rate = nx * ux + ny * uy
     if support.length > 0.0:
         ax, ay = turned(pos[j, 2], support.ax, support.ay)
         gap = nx * (dx - ax) + ny * (dy - ay)
         along = -ny * (dx - ax) + nx * (dy - ay)
         rate += vel[j, 2] * (-ny * dx + nx * dy)
-    if world.count[i] == 0:
-        return gap - world.radius[i], rate, along
+    if counts(w)[i] == 0:
+        return gap - radii(w)[i], rate, along
     lowest = 1e300
     lever = 0.0
-    for q in range(world.first[i], world.first[i] + world.count[i]):
-        x, y = turned(pos[i, 2], world.corners[q, 0], world.corners[q, 1])
+    for q in range(firsts(w)[i], firsts(w)[i] + counts(w)[i]):
+        x, y = turned(pos[i, 2], corners(w)[q, 0], corners(w)[q, 1])
         if nx * x + ny * y < lowest:
             lowest = nx * x + ny * y
             lever = x * ny - y * nx
     return gap + lowest, rate + vel[i, 2] * lever, along
 
 
-@kernel
-def ledger_size(world: World) -> int:
+@part
+def ledger_size(w: Any) -> int:
     """Entries of the ledger: heat, then the work of each push, link, given normal force and course."""
-    return 1 + len(world.pushes) + len(world.links) + len(world.supports) + len(world.courses)
+    return 1 + w.pushes + w.links + w.supports + w.courses
 
 
-@kernel
+@part
 def powers(
-    world: World,
+    w: Any,
     t: float,
     pos: FloatArray,
     vel: FloatArray,
@@ -179,34 +188,57 @@ def powers(
     rubbed: heat of friction, W."""
     power[0] = rubbed
     at = 1
-    for k in range(len(world.pushes)):
-        push = world.pushes[k]
-        power[at] = value(world, push.x, t, pos, vel) * vel[push.body, 0]
-        power[at] += value(world, push.y, t, pos, vel) * vel[push.body, 1]
+    for k in range(w.pushes):
+        push = push_of(w, k)
+        power[at] = value(w, push.x, t, pos, vel) * vel[push.body, 0]
+        power[at] += value(w, push.y, t, pos, vel) * vel[push.body, 1]
         at += 1
-    for k in range(len(world.links)):
+    for k in range(w.links):
         power[at] = 0.0
-        if pulls(world, k):
-            pull, growth = pull_of(world, k, t, pos, vel)
-            if world.links[k].kind == SPRING:
-                power[0] += world.links[k].damping * growth * growth
+        if pulls(w, k):
+            pull, growth = pull_of(w, k, t, pos, vel)
+            if link_of(w, k).kind == SPRING:
+                power[0] += link_of(w, k).damping * growth * growth
             else:
                 power[at] = -pull * growth
         at += 1
-    for k in range(len(world.supports)):
-        support = world.supports[k]
+    for k in range(w.supports):
+        support = support_of(w, k)
         power[at] = 0.0
         if support.over:
-            size = value(world, support.force, t, pos, vel)
-            nx, ny = normal_of(world, k, pos)
+            size = value(w, support.force, t, pos, vel)
+            nx, ny = normal_of(w, k, pos)
             power[at] = size * nx * (vel[support.i, 0] - vel[support.j, 0])
             power[at] += size * ny * (vel[support.i, 1] - vel[support.j, 1])
         at += 1
-    for k in range(len(world.courses)):
-        course = world.courses[k]
+    for k in range(w.courses):
+        course = course_of(w, k)
         power[at] = 0.0
         if course.on:
             # What the course itself adds to all other forces, so that the body follows it.
             i, a = course.body, course.axis
-            power[at] = (world.mass[i, a] * acceleration[i, a] - total[i, a]) * vel[i, a]
+            power[at] = (masses(w)[i, a] * acceleration[i, a] - total[i, a]) * vel[i, a]
         at += 1
+
+
+@kernel
+def value_at(cells: FloatArray, program: int, t: float, pos: FloatArray, vel: FloatArray) -> float:
+    """`value`, from Python."""
+    return value(head(cells, WORLD), program, t, pos, vel)
+
+
+@kernel
+def length_at(cells: FloatArray, link: int, pos: FloatArray) -> float:
+    """The length of a link, m, from Python."""
+    return ends_of(head(cells, WORLD), link, pos)[8]
+
+
+@kernel
+def clearance_at(
+    cells: FloatArray, support: int, pos: FloatArray, vel: FloatArray
+) -> tuple[float, float, float, float]:
+    """Of a given normal force, from Python: gap, m; its rate, m/s; the normal."""
+    w = head(cells, WORLD)
+    gap, rate, _ = clearance(w, support, pos, vel)
+    nx, ny = normal_of(w, support, pos)
+    return gap, rate, nx, ny

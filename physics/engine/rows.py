@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from physics.engine.world import Table, World
-from physics.jit import kernel
+from physics.engine.world import Table
+from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
 FACE, POINT, CORD, PIN_X, PIN_Y, GIVEN = 0, 1, 2, 3, 4, 5
@@ -44,15 +44,15 @@ face; (px, py): where it acts; along: the place on the face, m; force: N along J
 of |rub| under a given normal force; press: the gap's acceleration if the row did not hold, m/s²."""
 
 
-@kernel
+@part
 def turned(angle: float, x: float, y: float) -> tuple[float, float]:
     """A vector of a body's frame in the world."""
     c, s = cos(angle), sin(angle)
     return c * x - s * y, s * x + c * y
 
 
-@kernel
-def refresh(row: Any, world: World, pos: FloatArray, vel: FloatArray) -> None:
+@part
+def refresh(row: Any, pos: FloatArray, vel: FloatArray) -> None:
     """Brings all that a row says up to these poses and velocities."""
     if row.kind == FACE or row.kind == GIVEN:
         _refresh_face(row, pos, vel)
@@ -60,7 +60,7 @@ def refresh(row: Any, world: World, pos: FloatArray, vel: FloatArray) -> None:
         _refresh_point(row, pos, vel)
     elif row.kind == CORD:
         if row.feature >= 0:
-            _refresh_over_pulley(row, world, pos, vel)
+            _refresh_over_pulley(row, pos, vel)
         else:
             _refresh_cord(row, pos, vel)
     else:
@@ -75,7 +75,7 @@ def refresh(row: Any, world: World, pos: FloatArray, vel: FloatArray) -> None:
     row.slip = slip
 
 
-@kernel
+@part
 def _refresh_face(row: Any, pos: FloatArray, vel: FloatArray) -> None:
     # With n fixed to i and d from i's centre to the point of j: gap = n·d − const; n' = ω_i t, t' = −ω_i n.
     i, j = row.i, row.j
@@ -103,7 +103,7 @@ def _refresh_face(row: Any, pos: FloatArray, vel: FloatArray) -> None:
     row.ct = -wi * (nx * ux + ny * uy) + wj * (wi - wj) * tb - wi * opening
 
 
-@kernel
+@part
 def _refresh_point(row: Any, pos: FloatArray, vel: FloatArray) -> None:
     i, j = row.i, row.j
     ax, ay = turned(pos[i, 2], row.ax, row.ay)
@@ -134,7 +134,7 @@ def _refresh_point(row: Any, pos: FloatArray, vel: FloatArray) -> None:
     row.along = 0.0
 
 
-@kernel
+@part
 def _refresh_cord(row: Any, pos: FloatArray, vel: FloatArray) -> None:
     i, j = row.i, row.j
     ax, ay = turned(pos[i, 2], row.ax, row.ay)
@@ -157,7 +157,7 @@ def _refresh_cord(row: Any, pos: FloatArray, vel: FloatArray) -> None:
     row.c = -(across * across / distance - wj * wj * (nx * bx + ny * by) + wi * wi * (nx * ax + ny * ay))
 
 
-@kernel
+@part
 def wrapped(
     x: float, y: float, cx: float, cy: float, radius: float, sense: float
 ) -> tuple[float, float, float, float, float]:
@@ -176,10 +176,10 @@ def wrapped(
     return straight, sense * qy, -sense * qx, touch, square
 
 
-@kernel
-def _refresh_over_pulley(row: Any, world: World, pos: FloatArray, vel: FloatArray) -> None:
+@part
+def _refresh_over_pulley(row: Any, pos: FloatArray, vel: FloatArray) -> None:
     i, j, wheel = row.i, row.j, row.feature
-    radius = world.radius[wheel]
+    radius = row.ri
     cx, cy = pos[wheel, 0], pos[wheel, 1]
     ax, ay = turned(pos[i, 2], row.ax, row.ay)
     bx, by = turned(pos[j, 2], row.bx, row.by)
@@ -207,7 +207,7 @@ def _refresh_over_pulley(row: Any, world: World, pos: FloatArray, vel: FloatArra
     row.c = -bend
 
 
-@kernel
+@part
 def _refresh_pin(row: Any, pos: FloatArray, vel: FloatArray) -> None:
     i, j = row.i, row.j
     ax, ay = turned(pos[i, 2], row.ax, row.ay)
@@ -228,7 +228,7 @@ def _refresh_pin(row: Any, pos: FloatArray, vel: FloatArray) -> None:
 
 
 @kernel
-def refresh_all(rows: Table, world: World, pos: FloatArray, vel: FloatArray) -> None:
-    """`refresh` for every row."""
+def refresh_table(rows: Table, pos: FloatArray, vel: FloatArray) -> None:
+    """`refresh` for every row of a table of its own."""
     for k in range(len(rows)):
-        refresh(rows[k], world, pos, vel)
+        refresh(rows[k], pos, vel)

@@ -22,7 +22,7 @@ import numpy as np
 from physics.engine.exact.run import ExactRun, TooMuch
 from physics.engine.exact.touch import TOUCHING, near_pairs
 from physics.engine.meetings import Meeting, first_meeting
-from physics.engine.robust import RobustRun
+from physics.engine.robust.run import RobustRun
 from physics.engine.source import SceneSource
 from physics.engine.world import Names, World, start_of, world_of
 from physics.scene import Scene, SceneError

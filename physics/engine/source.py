@@ -16,7 +16,7 @@ from sketch.ink import FloatArray
 
 if TYPE_CHECKING:
     from physics.engine.exact.run import ExactRun
-    from physics.engine.robust import RobustRun
+    from physics.engine.robust.run import RobustRun
     from physics.engine.simulation import Strand
 
 

@@ -31,7 +31,7 @@ from physics_scenes import (
 from scipy.special import ellipj, ellipk
 
 from physics.engine.acts import Act, energies, link_ends
-from physics.engine.robust import RobustRun
+from physics.engine.robust.run import RobustRun
 from physics.engine.world import start_of, world_of
 from physics.scene import Anchor, Body, Material, Pin, Scene, WireLink
 from sketch.ink import FloatArray

@@ -15,9 +15,9 @@ import numpy as np
 from physics.engine.cells import head
 from physics.engine.exact.integrate import unpack
 from physics.engine.exact.machine import MACHINE, Machine, accelerations, poses, row_of, state, velocities
-from physics.engine.exact.rows import CORD, FREE, GIVEN, OFF, ON, POINT, SLIDE, STICK
 from physics.engine.exact.solve import NORMAL, TANGENT, accelerate, demand
 from physics.engine.exact.touch import TOUCHING
+from physics.engine.rows import CORD, FREE, GIVEN, OFF, ON, POINT, SLIDE, STICK
 from physics.engine.tables import WORLD, gravity, masses
 from physics.engine.world import IntArray, Table, World
 from physics.jit import kernel, part

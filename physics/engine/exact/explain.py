@@ -11,8 +11,8 @@ from physics.engine.acts import Act, applied
 from physics.engine.cells import head
 from physics.engine.exact.integrate import between, unpack
 from physics.engine.exact.machine import MACHINE, accelerations, forces_of, poses, row_of, velocities
-from physics.engine.exact.rows import CORD, FREE, GIVEN, ON, turned
 from physics.engine.exact.solve import accelerate
+from physics.engine.rows import CORD, FREE, GIVEN, ON, turned
 from physics.engine.tables import WORLD
 from physics.engine.world import IntArray, Names, Table, World
 from physics.jit import kernel

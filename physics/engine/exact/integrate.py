@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
+from physics.engine import forces
 from physics.engine.cells import head, line
-from physics.engine.exact import forces
 from physics.engine.exact.machine import (
     MACHINE,
     T,
@@ -37,9 +37,9 @@ from physics.engine.exact.machine import (
     unknown_rows,
     velocities,
 )
-from physics.engine.exact.rows import refresh
 from physics.engine.exact.solve import accelerate, solve
 from physics.engine.exact.tableau import E3, E5, A, C, D
+from physics.engine.rows import refresh
 from physics.engine.tables import WORLD, inverses
 from physics.jit import kernel, part
 from sketch.ink import FloatArray

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from physics.engine.cells import Layout, grid, integers, line, record
-from physics.engine.exact.rows import ROW
+from physics.engine.rows import ROW
 from physics.engine.world import IntArray, Table
 from physics.jit import accessor
 from sketch.ink import FloatArray

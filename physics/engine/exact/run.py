@@ -20,10 +20,13 @@ from physics.engine.exact import decide as de
 from physics.engine.exact import flow as fl
 from physics.engine.exact import strike as st
 from physics.engine.exact.explain import explain, sample
-from physics.engine.exact.forces import clearance_at, length_at
 from physics.engine.exact.integrate import projected
 from physics.engine.exact.machine import FIRST, POWERS, H, Machine, T, machine_of
-from physics.engine.exact.rows import (
+from physics.engine.exact.solve import LARGEST, system_of
+from physics.engine.exact.tell import Teller
+from physics.engine.exact.touch import TOUCHING, all_touching
+from physics.engine.forces import clearance_at, length_at
+from physics.engine.rows import (
     CORD,
     GIVEN,
     OFF,
@@ -36,9 +39,6 @@ from physics.engine.exact.rows import (
     STICK,
     refresh_table,
 )
-from physics.engine.exact.solve import LARGEST, system_of
-from physics.engine.exact.tell import Teller
-from physics.engine.exact.touch import TOUCHING, all_touching
 from physics.engine.world import PIN, WIRE, Names, Table, World, copied
 from physics.trajectory import Event
 from sketch.ink import FloatArray

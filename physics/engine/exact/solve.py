@@ -16,8 +16,8 @@ from typing import Any
 
 import numpy as np
 
+from physics.engine import forces
 from physics.engine.cells import integers
-from physics.engine.exact import forces
 from physics.engine.exact.machine import (
     System,
     accelerations,
@@ -35,7 +35,7 @@ from physics.engine.exact.machine import (
     unknown_rows,
     velocities,
 )
-from physics.engine.exact.rows import GIVEN, ON, SLIDE, STICK, refresh
+from physics.engine.rows import GIVEN, ON, SLIDE, STICK, refresh
 from physics.engine.tables import course_of, inverses, support_of, value
 from physics.engine.world import Table
 from physics.jit import part

@@ -15,8 +15,8 @@ from math import sqrt
 from typing import Any
 
 from physics.engine.cells import head
-from physics.engine.exact.rows import CORD, GIVEN, PIN_X, POINT, refresh, refresh_table
 from physics.engine.exact.touch import TOUCHING
+from physics.engine.rows import CORD, GIVEN, PIN_X, POINT, refresh, refresh_table
 from physics.engine.tables import WORLD, inverses, masses
 from physics.engine.world import Table
 from physics.jit import kernel, part

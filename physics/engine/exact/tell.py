@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from physics.engine.exact.decide import WEAK
-from physics.engine.exact.forces import value_at
-from physics.engine.exact.rows import CORD, GIVEN, ON, PIN_X, POINT
 from physics.engine.exact.solve import SINGULAR
+from physics.engine.forces import value_at
+from physics.engine.rows import CORD, GIVEN, ON, PIN_X, POINT
 from physics.engine.world import Names, Table, World
 from physics.trajectory import Event, EventKind
 from sketch.ink import FloatArray

@@ -14,7 +14,7 @@ import numpy as np
 
 from physics.engine.cells import head
 from physics.engine.exact.machine import poses, row_of, velocities
-from physics.engine.exact.rows import FACE, FREE, OFF, POINT, STICK, refresh, turned
+from physics.engine.rows import FACE, FREE, OFF, POINT, STICK, refresh, turned
 from physics.engine.tables import (
     WORLD,
     corners,

@@ -11,10 +11,10 @@ from __future__ import annotations
 from math import hypot
 from typing import Any
 
-from physics.engine.exact import forces
+from physics.engine import forces
 from physics.engine.exact.machine import poses, row_of, velocities
-from physics.engine.exact.rows import CORD, FACE, GIVEN, ON, POINT, SLIDE, STICK, turned
 from physics.engine.exact.touch import newcomers, separation
+from physics.engine.rows import CORD, FACE, GIVEN, ON, POINT, SLIDE, STICK, turned
 from physics.engine.tables import (
     branch,
     corners,

@@ -1,0 +1,183 @@
+"""Impacts of a crowd: Newton's restitution, each at its own moment within a substep.
+
+What would close within the substep is struck: those that approach are solved together, then those that
+approach in consequence (so a Newton's cradle works). An impulse at the moment τ of a substep h moves a
+body only h − τ long, so the way is put right by −τ Δv: a bounce is then as exact as the free flight.
+"""
+
+from __future__ import annotations
+
+from math import hypot, sqrt
+
+from physics.engine.robust.crowd import (
+    ACTIVE,
+    ASIDE,
+    CLOSING,
+    CONTACTS,
+    GIVES,
+    GOAL,
+    IMPULSE,
+    LEAST,
+    WHEN,
+    Crowd,
+)
+from physics.engine.robust.manifold import (
+    BOUNCE,
+    GAIN,
+    GAP,
+    HIT,
+    LIVE,
+    NX,
+    NY,
+    ONE,
+    OTHER,
+    PN,
+    PT,
+    RATE,
+    SLIP,
+    TARGET,
+    TAU,
+    WN,
+    WT,
+)
+from physics.engine.robust.rows import CORD
+from physics.engine.robust.soft import haul, opening, press, rate_of, settle, slipping
+from physics.engine.world import World
+from physics.jit import part
+
+FAST = 1e-4
+"""m/s: what closes more slowly, over what gravity makes in a substep, lands without an impact."""
+ROUNDS = 8
+"""Of impacts in consequence of one another within a substep; after them all that still close are dead."""
+SWEEPS = 60.0
+"""Rounds of sweeps in one."""
+CLOSE = 1e-11
+"""m/s: sweeps of an impact end when no rate changes by more."""
+ROUNDING = 1e-12
+"""Share of what approaches bring that rounding may add to the energy."""
+
+
+@part
+def approach(gap: float, rate: float, pull: float, lag: float, h: float) -> tuple[float, float]:
+    """(rate at which a gap closes, m/s, zero if it does not within h; when). rate: half a substep `lag` ago;
+    pull: how the rate changes, m/s²."""
+    now = rate + lag * pull
+    if gap <= 0.0:
+        return min(now, 0.0), 0.0
+    if gap + h * now + 0.5 * h * h * pull >= 0.0:
+        return 0.0, 0.0
+    last = -sqrt(max(now * now - 2.0 * pull * gap, 0.0))
+    when = 2.0 * gap / (-now - last) if now + last < 0.0 else h
+    return last, min(when, h)
+
+
+@part
+def strike(world: World, crowd: Crowd, h: float, lag: float) -> float:
+    """Gives all that collides within the substep its velocity afterwards; the energy that
+    is lost, J, or −1 if nothing collides. HIT of a contact becomes the fastest approach, m/s, of those that were struck, else zero."""
+    vel, real, whole, bars = crowd.vel, crowd.real, crowd.whole, crowd.bars
+    contacts, rows = crowd.tally[CONTACTS], len(crowd.rows)
+    gx, gy = world.gravity[0], world.gravity[1]
+    acc, since = crowd.acc, crowd.when
+    for k in range(contacts):
+        real[HIT, k] = 0.0
+    rounds = 0
+    loss = 0.0
+    while rounds <= ROUNDS:
+        struck = False
+        for k in range(contacts):
+            pull = opening(real, whole, k, acc)
+            rate, when = approach(real[GAP, k], opening(real, whole, k, vel), pull, lag, h)
+            whole[LIVE, k] = 0
+            if rate < -FAST - h * abs(real[NX, k] * gx + real[NY, k] * gy):
+                if not struck and rounds == 0:
+                    _begin(crowd)
+                struck = True
+                whole[LIVE, k] = 1
+                real[HIT, k] = max(real[HIT, k], -rate)
+                real[RATE, k], real[TAU, k] = rate, when
+                real[GAIN, k] = (lag + when) * pull
+                if rounds > 0:
+                    real[TAU, k] = max(when, since[whole[ONE, k]], since[whole[OTHER, k]])
+        for k in range(rows):
+            row = crowd.rows[k]
+            rate = rate_of(crowd.jacobian, crowd.ends, k, vel)
+            bars[k, GOAL] = min(rate, 0.0) if bars[k, LEAST] == 0.0 else rate
+            bars[k, WHEN], bars[k, CLOSING] = -1.0, 0.0
+            if row.kind == CORD and bars[k, ACTIVE] == 1.0:
+                pull = rate_of(crowd.jacobian, crowd.ends, k, acc)
+                rate, when = approach(row.gap, rate, pull, lag, h)
+                if rate < -FAST - 2.0 * h * (abs(row.c) + hypot(gx, gy)):
+                    if not struck and rounds == 0:
+                        _begin(crowd)
+                    struck = True
+                    bars[k, GOAL], bars[k, WHEN], bars[k, CLOSING] = -(lag + when) * pull, when, rate
+        if not struck:
+            break
+        loss += _solve(world, crowd, rounds < ROUNDS)
+        rounds += 1
+    if rounds > 0:
+        for k in range(contacts):
+            real[PN, k], real[PT, k] = real[WN, k], real[WT, k]
+        for k in range(rows):
+            bars[k, IMPULSE] = bars[k, ASIDE]
+    for k in range(contacts):
+        whole[LIVE, k] = 1
+    return max(loss, 0.0) if rounds > 0 else -1.0
+
+
+@part
+def _begin(crowd: Crowd) -> None:
+    """Keeps the impulses of the last substep aside."""
+    real, bars = crowd.real, crowd.bars
+    for k in range(crowd.tally[CONTACTS]):
+        real[WN, k], real[WT, k] = real[PN, k], real[PT, k]
+    for k in range(len(crowd.rows)):
+        bars[k, ASIDE] = bars[k, IMPULSE]
+
+
+@part
+def _solve(world: World, crowd: Crowd, lively: bool) -> float:
+    """One round; the energy that it takes, J. Newton's restitution and friction together can create energy (Kane
+    and Levinson 1985): then the round is dead, which never does."""
+    vel, real, whole, bars = crowd.vel, crowd.real, crowd.whole, crowd.bars
+    contacts, rows, inverse = crowd.tally[CONTACTS], len(bars), world.inverse
+    jacobian, ends, shift, since = crowd.jacobian, crowd.ends, crowd.shift, crowd.when
+    for k in range(contacts):
+        real[SLIP, k] = slipping(real, whole, k, vel)
+    bounce, loss = 1.0 if lively else 0.0, 0.0
+    while True:
+        for k in range(contacts):
+            real[PN, k], real[PT, k] = 0.0, 0.0
+            real[TARGET, k] = -real[GAIN, k] - bounce * real[BOUNCE, k] * real[RATE, k]
+        for k in range(rows):
+            bars[k, IMPULSE] = 0.0
+        settle(real, whole, bars, jacobian, ends, inverse, contacts, vel, SWEEPS, CLOSE)
+        loss = 0.0
+        scale = 0.0
+        for k in range(contacts):
+            if whole[LIVE, k] == 1:
+                rate = opening(real, whole, k, vel) + real[GAIN, k]
+                loss -= 0.5 * real[PN, k] * (real[RATE, k] + rate)
+                loss -= 0.5 * real[PT, k] * (real[SLIP, k] + slipping(real, whole, k, vel))
+                scale -= real[PN, k] * real[RATE, k]
+        if bounce == 0.0 or loss >= -ROUNDING * scale:
+            break
+        bounce = 0.0
+        for k in range(contacts):
+            if whole[LIVE, k] == 1:
+                press(real, whole, inverse, k, -real[PN, k], -real[PT, k], vel)
+        for k in range(rows):
+            haul(jacobian, ends, inverse, k, -bars[k, IMPULSE], vel)
+    for k in range(contacts):
+        if whole[LIVE, k] == 1 and real[PN, k] > 0.0:
+            i, j, when = whole[ONE, k], whole[OTHER, k], real[TAU, k]
+            press(real, whole, inverse, k, -when * real[PN, k], -when * real[PT, k], shift)
+            since[i], since[j] = max(since[i], when), max(since[j], when)
+    for k in range(rows):
+        if bars[k, IMPULSE] != 0.0:
+            loss -= 0.5 * bars[k, IMPULSE] * bars[k, CLOSING]
+            when = bars[k, WHEN] if bars[k, WHEN] >= 0.0 else max(since[ends[k, 0]], since[ends[k, 1]])
+            haul(jacobian, ends, inverse, k, -when * bars[k, IMPULSE], shift)
+            bars[k, GIVES] = max(bars[k, GIVES], bars[k, IMPULSE])
+    return loss

@@ -1,0 +1,386 @@
+"""One substep of robust mode, and many.
+
+Leapfrog (position Verlet: Verlet 1967; with contacts: Moreau 1999): velocities live half a substep before
+poses, the first kick is half a one, so poses are exact for constant acceleration, along a flat incline
+too. A substep: impacts; a kick by all forces and the impulses that keep gaps open; a drift. A gap may
+close, but not more: its rate must be at least −gap / h, which is a drift of just that gap.
+Wires and pins are held by the same law from both sides, with the rate that their bending adds (SHAKE:
+Ryckaert, Ciccotti and Berendsen 1977).
+
+Velocities at the time of the poses are the mean of both kicks' sides, before an impact.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.engine.robust.collide import strike
+from physics.engine.robust.crowd import (
+    ACTIVE,
+    CONTACTS,
+    DONE,
+    EVENTS,
+    FORCE,
+    GOAL,
+    IMPULSE,
+    LAST,
+    LEAST,
+    MOST,
+    NEEDS,
+    PRESSED,
+    RECORDS,
+    STILL,
+    STOPPED,
+    Crowd,
+    Record,
+)
+from physics.engine.robust.forces import add, clearance, powers, put, value
+from physics.engine.robust.manifold import GAP, NX, NY, ONE, OTHER, PAIR, PN, PT, PX, PY, TARGET
+from physics.engine.robust.near import find
+from physics.engine.robust.rows import CORD, GIVEN, POINT
+from physics.engine.robust.soft import bring_up, haul, opening, press, push_apart, rate_of, settle
+from physics.engine.robust.watch import release, watch_contacts, watch_rest, watch_supports, watch_wires
+from physics.engine.world import World
+from physics.jit import kernel, part
+from sketch.ink import FloatArray
+
+IntArray = NDArray[np.int64]
+
+ROUNDS = 40.0
+"""Of sweeps in a substep; a float, for numba compiles a function anew for every integer constant."""
+CLOSE = 1e-12
+"""m/s: sweeps end when no rate changes by more."""
+CREEP = 5e-4
+"""m: the most that a wire or pin is put right within a substep: what was drawn wrong is not torn right."""
+LANDING = 2.0
+"""An acceleration that is greater by this factor than all forces but the contacts' would make it is a landing's."""
+QUIET = 5e-13
+"""m/s: below it on every body nothing moves."""
+FRAME = 60
+"""Frames of the smoothed motion (row E2) in a second."""
+ASLEEP = 60
+"""Substeps without motion after which a scene that reads no time sleeps."""
+
+
+@part
+def _ask(world: World, crowd: Crowd, movable: int, t: float, h: float) -> bool:
+    """Has the student's programs tell the sizes of given normal forces, and the velocities that take bodies
+    under an equation where it says. False if one has no value (`STOPPED`: which)."""
+    vel, pos, now, asked = crowd.vel, crowd.pos, crowd.now, crowd.asked
+    stopped = -1
+    supports = len(world.supports)
+    for k in range(supports):
+        if world.supports[k].over == 1:
+            asked[k] = value(world, world.supports[k].force, t, pos, now)
+    for k in range(len(world.courses)):
+        course = world.courses[k]
+        if course.on == 0:
+            continue
+        i, a = course.body, course.axis
+        here = pos[i, a]
+        if course.position >= 0:
+            there = value(world, course.position, t + h, pos, now)
+            vel[i, a] = (there - here) / h
+        else:
+            # Read in the middle of the substep, by a first guess of the way there.
+            pos[i, a] = here + 0.5 * h * value(world, course.velocity, t, pos, now)
+            vel[i, a] = value(world, course.velocity, t + 0.5 * h, pos, now)
+            pos[i, a] = here
+            there = here + h * vel[i, a]
+        asked[supports + k] = there
+        if not np.isfinite(there):
+            stopped = course.position if course.position >= 0 else course.velocity
+    total = 0.0
+    for i in range(movable):
+        total += crowd.force[i, 0] + crowd.force[i, 1] + crowd.force[i, 2]
+    if np.isfinite(total) and stopped < 0:
+        return True
+    for program in range(len(world.spans)):
+        if stopped < 0 and not np.isfinite(value(world, program, t, pos, now)):
+            stopped = program
+    for i in range(len(vel)):
+        for q in range(3):
+            vel[i, q] = crowd.start[i, q]
+    crowd.tally[STOPPED] = max(stopped, 0)
+    return False
+
+
+@part
+def _begin(world: World, crowd: Crowd, lag: float) -> None:
+    """Velocities at the time of the poses, as far as they are known before the kick: accelerations are taken to be
+    those of the last one, but where a landing made them."""
+    pos, vel, acc, now, start = crowd.pos, crowd.vel, crowd.acc, crowd.now, crowd.start
+    turns, when, force, inverse, reach = crowd.turns, crowd.when, crowd.force, world.inverse, world.reach
+    for i in range(len(pos)):
+        most = LANDING * (abs(force[i, 0]) * inverse[i, 0] + abs(force[i, 1]) * inverse[i, 1])
+        if abs(acc[i, 0]) + abs(acc[i, 1]) > most:
+            acc[i, 0], acc[i, 1], acc[i, 2] = 0.0, 0.0, 0.0
+        elif abs(acc[i, 2]) * reach[i] > most + LANDING * abs(force[i, 2]) * inverse[i, 2] * reach[i]:
+            acc[i, 2] = 0.0
+        when[i] = 0.0
+        turns[i, 0], turns[i, 1] = np.cos(pos[i, 2]), np.sin(pos[i, 2])
+        for q in range(3):
+            start[i, q] = vel[i, q]
+            now[i, q] = vel[i, q] + lag * acc[i, q]
+
+
+@part
+def _sync(world: World, crowd: Crowd, lag: float, kick: float) -> None:
+    """Accelerations by the kick, and velocities at its time."""
+    vel, acc, now, start, before = crowd.vel, crowd.acc, crowd.now, crowd.start, crowd.before
+    inverse = world.inverse
+    for i in range(len(vel)):
+        for q in range(3):
+            free = inverse[i, q] > 0.0
+            acc[i, q] = (vel[i, q] - (before[i, q] if free else start[i, q])) / kick
+            # What is struck has another velocity at once; before that, it went on as it did.
+            if before[i, q] == start[i, q] or not free:
+                now[i, q] = start[i, q] + lag * acc[i, q]
+
+
+@part
+def _drift(world: World, crowd: Crowd, movable: int, h: float, struck: bool) -> None:
+    """Poses after h seconds, overlap let out, and whether anything moved (`STILL`)."""
+    vel, acc, pos, shift = crowd.vel, crowd.acc, crowd.pos, crowd.shift
+    quiet = not struck
+    for i in range(movable):
+        for q in range(3):
+            quiet = quiet and abs(vel[i, q]) <= QUIET and abs(h * acc[i, q]) <= QUIET
+            pos[i, q] += h * vel[i, q] + shift[i, q]
+            shift[i, q] = 0.0
+    for k in range(len(world.courses)):
+        course = world.courses[k]
+        if course.on == 1:
+            pos[course.body, course.axis] = crowd.asked[len(world.supports) + k]
+    gx, gy = world.gravity[0], world.gravity[1]
+    level, mass = 0.0, world.mass
+    for i in range(movable):
+        level -= mass[i, 0] * (gx * pos[i, 0] + gy * pos[i, 1])
+    if push_apart(world, crowd, h):
+        quiet = False
+        for i in range(movable):
+            level += mass[i, 0] * (gx * pos[i, 0] + gy * pos[i, 1])
+        # What a push lifts had fallen too far: that much less was turned into heat.
+        crowd.ledger[0] += level
+    crowd.tally[STILL] = crowd.tally[STILL] + 1 if quiet else 0
+
+
+@part
+def _goals(world: World, crowd: Crowd, h: float, kick: float, struck: bool) -> None:
+    """The rate that each contact and row must have after the kick, and their impulses of the last one."""
+    real, bars = crowd.real, crowd.bars
+    last = crowd.reals[LAST]
+    warm = kick / last if last > 0.0 else 0.0
+    vel, before, whole, shift = crowd.vel, crowd.before, crowd.whole, crowd.shift
+    for i in range(len(vel)):
+        for q in range(3):
+            before[i, q] = vel[i, q]
+    for k in range(crowd.tally[CONTACTS]):
+        gap = max(real[GAP, k], 0.0)
+        if struck:
+            gap += opening(real, whole, k, shift)
+        real[TARGET, k] = -gap / h
+        real[PN, k] *= warm
+        real[PT, k] *= warm
+    for k in range(len(crowd.rows)):
+        row = crowd.rows[k]
+        bars[k, IMPULSE] *= warm
+        if row.kind == GIVEN or row.kind == POINT:
+            support: Any = world.supports[row.source]
+            gap = clearance(world, row.source, crowd.pos, crowd.now)[0]
+            most = 0.0
+            if support.over == 1 and row.mu > 0.0 and abs(gap) < support.skin:
+                most = kick * row.mu * max(crowd.asked[row.source], 0.0)
+            bars[k, ACTIVE], bars[k, GOAL], bars[k, LEAST], bars[k, MOST] = 1.0, 0.0, -most, most
+            bars[k, IMPULSE] = min(max(bars[k, IMPULSE], -most), most)
+            continue
+        off = row.gap + 0.5 * h * h * row.c
+        if struck:
+            off += rate_of(crowd.jacobian, crowd.ends, k, crowd.shift)
+        if off < 0.0 or row.kind != CORD:
+            off = min(max(off, -CREEP), CREEP)
+        bars[k, GOAL] = -off / h
+
+
+@part
+def _kick(world: World, crowd: Crowd, movable: int, kick: float) -> float:
+    """Velocities after the kick; the heat that its constraints make, J."""
+    vel, real, whole, bars, inverse = crowd.vel, crowd.real, crowd.whole, crowd.bars, world.inverse
+    contacts, force, before, mass = crowd.tally[CONTACTS], crowd.force, crowd.before, world.mass
+    for i in range(movable):
+        for q in range(3):
+            vel[i, q] += kick * inverse[i, q] * force[i, q]
+    for k in range(contacts):
+        if real[PN, k] != 0.0 or real[PT, k] != 0.0:
+            press(real, whole, inverse, k, real[PN, k], real[PT, k], vel)
+    for k in range(len(bars)):
+        if bars[k, ACTIVE] == 0.0:
+            bars[k, IMPULSE] = 0.0
+        elif bars[k, IMPULSE] != 0.0:
+            haul(crowd.jacobian, crowd.ends, inverse, k, bars[k, IMPULSE], vel)
+    settle(real, whole, bars, crowd.jacobian, crowd.ends, inverse, contacts, vel, ROUNDS, CLOSE)
+    heat = 0.0
+    for i in range(movable):
+        for q in range(3):
+            if inverse[i, q] > 0.0:
+                gain = mass[i, q] * (vel[i, q] - before[i, q]) - kick * force[i, q]
+                heat -= 0.5 * (vel[i, q] + before[i, q]) * gain
+    return heat
+
+
+@part
+def _sum_up(crowd: Crowd, kick: float) -> None:
+    """All forces on each body, those of contacts and rows too."""
+    real, whole, total = crowd.real, crowd.whole, crowd.total
+    for i in range(len(total)):
+        for q in range(3):
+            total[i, q] = crowd.force[i, q]
+    for k in range(crowd.tally[CONTACTS]):
+        normal, along = real[PN, k] / kick, real[PT, k] / kick
+        x, y = real[NX, k] * normal - real[NY, k] * along, real[NY, k] * normal + real[NX, k] * along
+        put(total, whole[ONE, k], -x, -y, 0.0, 0.0)
+        put(total, whole[OTHER, k], x, y, 0.0, 0.0)
+    for k in range(len(crowd.rows)):
+        row = crowd.rows[k]
+        for q in range(3):
+            total[row.i, q] += crowd.jacobian[k, q] * crowd.bars[k, IMPULSE] / kick
+            total[row.j, q] += crowd.jacobian[k, 3 + q] * crowd.bars[k, IMPULSE] / kick
+
+
+@part
+def _keep(world: World, crowd: Crowd, record: Record, kick: float) -> None:
+    tally, bars, rows = crowd.tally, crowd.bars, len(crowd.rows)
+    at = tally[RECORDS]
+    _copy(crowd.pos, record.pos, at)
+    _copy(crowd.now, record.vel, at)
+    _copy(crowd.acc, record.acc, at)
+    for k in range(len(crowd.ledger)):
+        record.ledger[at, k] = crowd.ledger[k]
+    for k in range(rows):
+        record.pulls[at, k] = bars[k, IMPULSE] / kick
+    tally[PRESSED] = _press_on(
+        crowd.real,
+        crowd.whole,
+        tally[CONTACTS],
+        world.pairs,
+        record.pairs,
+        record.forces,
+        tally[PRESSED],
+        kick,
+    )
+    record.ends[at] = tally[PRESSED]
+    tally[RECORDS] = at + 1
+
+
+@part
+def _copy(now: FloatArray, kept: FloatArray, at: int) -> None:
+    for i in range(len(now)):
+        for q in range(3):
+            kept[at, i, q] = now[i, q]
+
+
+@part
+def _press_on(
+    real: FloatArray,
+    whole: IntArray,
+    contacts: int,
+    pairs: Any,
+    numbers: NDArray[np.int32],
+    forces: FloatArray,
+    pressed: int,
+    kick: float,
+) -> int:
+    """Adds the forces of pairs that press, each at its centre of pressure; how many there are now."""
+    last = -1
+    weight = 0.0
+    for k in range(contacts):
+        normal, along = real[PN, k], real[PT, k]
+        if normal <= 0.0:
+            continue
+        pair = whole[PAIR, k]
+        if pair != last:
+            last, weight = pair, 0.0
+            numbers[pressed] = pair
+            for q in range(FORCE):
+                forces[pressed, q] = 0.0
+            pressed += 1
+        at = pressed - 1
+        sign = (1.0 if whole[OTHER, k] == pairs[pair].j else -1.0) / kick
+        forces[at, 0] += sign * real[NX, k] * normal
+        forces[at, 1] += sign * real[NY, k] * normal
+        forces[at, 2] -= sign * real[NY, k] * along
+        forces[at, 3] += sign * real[NX, k] * along
+        weight += normal
+        forces[at, 4] += (real[PX, k] - forces[at, 4]) * normal / weight
+        forces[at, 5] += (real[PY, k] - forces[at, 5]) * normal / weight
+    return pressed
+
+
+@kernel
+def run(
+    world: World,
+    crowd: Crowd,
+    record: Record,
+    movable: int,
+    begin: float,
+    h: float,
+    each: int,
+    frame: int,
+    until: int,
+    room: float,
+    sleepy: bool,
+) -> None:
+    """Substeps until `until` are done, a table is full (`NEEDS`: how many pairs are near), a formula has no value
+    (`STOPPED`: which), or all sleep (sleepy: they may).
+
+    begin: when the first one was, s; h: their length, s; each: substeps from record to record; frame: from
+    frame to frame; room: see `sweep`.
+    """
+    tally, ledger, power = crowd.tally, crowd.ledger, crowd.power
+    tally[NEEDS] = 0
+    many = 2 * len(crowd.near) + 2 * len(world.links) + 2 * len(world.supports) + len(world.courses) + movable
+    while tally[DONE] < until:
+        done = tally[DONE]
+        full = tally[RECORDS] >= len(record.pos) or tally[PRESSED] + len(crowd.near) > len(record.forces)
+        if full or tally[EVENTS] + many > len(crowd.events):
+            return
+        t = begin + done * h
+        kick, lag = (h, 0.5 * h) if done > 0 else (0.5 * h, 0.0)
+        _begin(world, crowd, lag)
+        if not find(world, crowd, movable, h, room):
+            return
+        add(world, t, crowd.pos, crowd.now, crowd.force)
+        if not _ask(world, crowd, movable, t, h):
+            return
+        bring_up(world, crowd)
+        if len(world.courses) > 0:
+            release(world, crowd, t, h, lag)
+        watch_supports(world, crowd, t)
+        loss = strike(world, crowd, h, lag)
+        struck = loss >= 0.0
+        watch_contacts(crowd, t, struck)
+        _goals(world, crowd, h, kick, struck)
+        heat = _kick(world, crowd, movable, kick)
+        _sync(world, crowd, lag, kick)
+        if len(world.courses) > 0:
+            _sum_up(crowd, kick)
+        # Heat and work of the kick, half of it before the time t.
+        powers(world, t, crowd.pos, crowd.now, crowd.acc, crowd.total, heat / kick, power)
+        for k in range(len(ledger)):
+            ledger[k] += lag * power[k]
+        if done % each == 0:
+            _keep(world, crowd, record, kick)
+        for k in range(len(ledger)):
+            ledger[k] += 0.5 * h * power[k]
+        ledger[0] += max(loss, 0.0)
+        _drift(world, crowd, movable, h, struck)
+        watch_wires(world, crowd, t, kick, h)
+        crowd.reals[LAST] = kick
+        tally[DONE] += 1
+        if done % frame == 0:
+            watch_rest(world, crowd, t, movable)
+            if sleepy and tally[STILL] >= ASLEEP:
+                return

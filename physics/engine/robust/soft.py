@@ -1,0 +1,319 @@
+"""Impulses of a crowd: contacts and rows (wires, pins, rubbing) swept again and again.
+
+Projected Gauss-Seidel (Moreau 1988; Jean and Moreau 1992): each takes the impulse that makes its own
+rate right, clamped to what it may be: a contact only pushes, friction stays within Coulomb's bound.
+Sweeps go forth and back and begin with the last substep's impulses, which are the answer wherever
+nothing changes. Overlap is let out by a soft contact's law of position alone (Catto 2024, "Solver2D"):
+what it moves gains no speed, so no energy of motion.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.engine.robust.crowd import (
+    ACTIVE,
+    CONTACTS,
+    GOAL,
+    HEFT,
+    IMPULSE,
+    LEAST,
+    MOST,
+    OLD,
+    WAY,
+    Crowd,
+)
+from physics.engine.robust.manifold import (
+    CA,
+    CB,
+    DN,
+    DT,
+    EASE,
+    GAP,
+    KN,
+    KT,
+    LIFT,
+    LIVE,
+    MU,
+    NX,
+    NY,
+    ON,
+    ONE,
+    OT,
+    OTHER,
+    PN,
+    PT,
+    TA,
+    TARGET,
+    TB,
+    renew_all,
+)
+from physics.engine.robust.rows import CORD, GIVEN, POINT, refresh
+from physics.engine.world import World
+from physics.jit import part
+from sketch.ink import FloatArray
+
+IntArray = NDArray[np.int64]
+
+PUSH_RATE = 9.0
+"""1/s: overlap goes at this share of itself per second: ω / (2ζ + ωh) of a soft contact of 30 Hz and damping
+ratio 10 at 240 Hz."""
+PUSH_SPEED = 1.0
+"""m/s: however deep it is."""
+SLOP = 1e-6
+"""m: overlap that is left as it is, and far below what can be seen."""
+SMALL, ENOUGH = 1e-7, 6.0
+"""m/s: smaller changes need no more than so many rounds; at rest the next substep goes on where this one ended."""
+PUSHES = 4
+"""Sweeps over the pushes, which start from those of the last substep."""
+
+
+@part
+def bring_up(world: World, crowd: Crowd) -> None:
+    """Contacts and rows at the poses of now."""
+    renew_all(crowd.tally[CONTACTS], crowd.pos, crowd.turns, world.inverse, crowd.real, crowd.whole)
+    for k in range(len(crowd.rows)):
+        row = crowd.rows[k]
+        refresh(row, world, crowd.pos, crowd.now)
+        light = 0.0
+        rubs = row.kind == GIVEN or row.kind == POINT
+        for q in range(6):
+            crowd.jacobian[k, q] = row.T[q] if rubs else row.J[q]
+            light += crowd.jacobian[k, q] ** 2 * world.inverse[row.i if q < 3 else row.j, q % 3]
+        crowd.bars[k, HEFT] = 1.0 / light if light > 0.0 else 0.0
+        if rubs:
+            support: Any = world.supports[row.source]
+            active = support.over == 1 and row.mu > 0.0
+        else:
+            link: Any = world.links[row.source]
+            active = link.broken == 0
+            crowd.bars[k, LEAST] = 0.0 if row.kind == CORD else -np.inf
+            crowd.bars[k, MOST] = np.inf
+        crowd.bars[k, ACTIVE] = 1.0 if active else 0.0
+
+
+@part
+def opening(real: FloatArray, whole: IntArray, k: int, vel: FloatArray) -> float:
+    """How fast contact k's gap opens, m/s."""
+    i, j = whole[ONE, k], whole[OTHER, k]
+    return (
+        real[NX, k] * (vel[j, 0] - vel[i, 0])
+        + real[NY, k] * (vel[j, 1] - vel[i, 1])
+        + real[CB, k] * vel[j, 2]
+        - real[CA, k] * vel[i, 2]
+    )
+
+
+@part
+def slipping(real: FloatArray, whole: IntArray, k: int, vel: FloatArray) -> float:
+    """How fast contact k slips, m/s."""
+    i, j = whole[ONE, k], whole[OTHER, k]
+    return (
+        real[NX, k] * (vel[j, 1] - vel[i, 1])
+        - real[NY, k] * (vel[j, 0] - vel[i, 0])
+        + real[TB, k] * vel[j, 2]
+        - real[TA, k] * vel[i, 2]
+    )
+
+
+@part
+def press(
+    real: FloatArray,
+    whole: IntArray,
+    inverse: FloatArray,
+    k: int,
+    normal: float,
+    tangent: float,
+    vel: FloatArray,
+) -> None:
+    """Applies impulses along normal and tangent of contact k."""
+    i, j = whole[ONE, k], whole[OTHER, k]
+    x = real[NX, k] * normal - real[NY, k] * tangent
+    y = real[NY, k] * normal + real[NX, k] * tangent
+    vel[i, 0] -= inverse[i, 0] * x
+    vel[i, 1] -= inverse[i, 1] * y
+    vel[i, 2] -= inverse[i, 2] * (real[CA, k] * normal + real[TA, k] * tangent)
+    vel[j, 0] += inverse[j, 0] * x
+    vel[j, 1] += inverse[j, 1] * y
+    vel[j, 2] += inverse[j, 2] * (real[CB, k] * normal + real[TB, k] * tangent)
+
+
+@part
+def rate_of(jacobian: FloatArray, ends: IntArray, k: int, vel: FloatArray) -> float:
+    """The rate of row k: of its slack, of a pin's gap, of slip."""
+    i, j = ends[k, 0], ends[k, 1]
+    rate = 0.0
+    for q in range(3):
+        rate += jacobian[k, q] * vel[i, q] + jacobian[k, 3 + q] * vel[j, q]
+    return rate
+
+
+@part
+def haul(
+    jacobian: FloatArray, ends: IntArray, inverse: FloatArray, k: int, impulse: float, vel: FloatArray
+) -> None:
+    """Applies an impulse along row k."""
+    i, j = ends[k, 0], ends[k, 1]
+    for q in range(3):
+        vel[i, q] += inverse[i, q] * jacobian[k, q] * impulse
+        vel[j, q] += inverse[j, q] * jacobian[k, 3 + q] * impulse
+
+
+@part
+def _sweep(
+    real: FloatArray,
+    whole: IntArray,
+    bars: FloatArray,
+    jacobian: FloatArray,
+    ends: IntArray,
+    inverse: FloatArray,
+    contacts: int,
+    vel: FloatArray,
+    back: int,
+) -> float:
+    """Once over all rows and contacts; the greatest change of a rate, m/s."""
+    change = 0.0
+    rows = len(bars)
+    for step in range(rows):
+        k = rows - 1 - step if back == 1 else step
+        heft = bars[k, HEFT]
+        if bars[k, ACTIVE] == 0.0 or heft == 0.0:
+            continue
+        wanted = bars[k, IMPULSE] - (rate_of(jacobian, ends, k, vel) - bars[k, GOAL]) * heft
+        wanted = min(max(wanted, bars[k, LEAST]), bars[k, MOST])
+        more = wanted - bars[k, IMPULSE]
+        if more != 0.0:
+            bars[k, IMPULSE] = wanted
+            haul(jacobian, ends, inverse, k, more, vel)
+            change = max(change, abs(more) / heft)
+    for step in range(contacts):
+        k = contacts - 1 - step if back == 1 else step
+        if whole[LIVE, k] == 0:
+            continue
+        i, j = whole[ONE, k], whole[OTHER, k]
+        nx, ny, ca, cb = real[NX, k], real[NY, k], real[CA, k], real[CB, k]
+        ux, uy, uw = vel[i, 0], vel[i, 1], vel[i, 2]
+        wx, wy, ww = vel[j, 0], vel[j, 1], vel[j, 2]
+        ix, iy, iw = inverse[i, 0], inverse[i, 1], inverse[i, 2]
+        jx, jy, jw = inverse[j, 0], inverse[j, 1], inverse[j, 2]
+        old = real[PN, k]
+        if real[MU, k] > 0.0:
+            ta, tb = real[TA, k], real[TB, k]
+            slip = nx * (wy - uy) - ny * (wx - ux) + tb * ww - ta * uw
+            most, was = real[MU, k] * max(old, 0.0), real[PT, k]
+            along = min(max(was - slip * real[KT, k], -most), most)
+            real[PT, k] = along
+            more = along - was
+            ux, uy, uw = ux + ix * ny * more, uy - iy * nx * more, uw - iw * ta * more
+            wx, wy, ww = wx - jx * ny * more, wy + jy * nx * more, ww + jw * tb * more
+            change = max(change, abs(more) * real[EASE, k])
+        rate = nx * (wx - ux) + ny * (wy - uy) + cb * ww - ca * uw
+        wanted = max(old - (rate - real[TARGET, k]) * real[KN, k], 0.0)
+        real[PN, k] = wanted
+        more = wanted - old
+        vel[i, 0], vel[i, 1], vel[i, 2] = ux - ix * nx * more, uy - iy * ny * more, uw - iw * ca * more
+        vel[j, 0], vel[j, 1], vel[j, 2] = wx + jx * nx * more, wy + jy * ny * more, ww + jw * cb * more
+        change = max(change, abs(more) * real[EASE, k])
+    return change
+
+
+@part
+def settle(
+    real: FloatArray,
+    whole: IntArray,
+    bars: FloatArray,
+    jacobian: FloatArray,
+    ends: IntArray,
+    inverse: FloatArray,
+    contacts: int,
+    vel: FloatArray,
+    rounds: float,
+    close: float,
+) -> None:
+    """Sweeps forth and back until no rate changes by more than `close`, m/s, at most so many rounds, and at most
+    `ENOUGH` once changes are `SMALL`. Before a round all go on along a conjugate direction (Silcowitz, Niebuhr
+    and Erleben 2010), for sweeps alone carry a force only one contact further each time."""
+    done, share, gone = 0.0, 0.0, 0.0
+    while True:
+        for k in range(contacts):
+            dn, dt = share * real[DN, k], share * real[DT, k]
+            if whole[LIVE, k] == 1 and (dn != 0.0 or dt != 0.0):
+                press(real, whole, inverse, k, dn, dt, vel)
+            else:
+                dn, dt = 0.0, 0.0
+            real[ON, k], real[OT, k] = real[PN, k], real[PT, k]
+            real[PN, k] += dn
+            real[PT, k] += dt
+            real[DN, k], real[DT, k] = dn, dt
+        for k in range(len(bars)):
+            more = share * bars[k, WAY] if bars[k, ACTIVE] == 1.0 and bars[k, HEFT] > 0.0 else 0.0
+            if more != 0.0:
+                haul(jacobian, ends, inverse, k, more, vel)
+            bars[k, OLD], bars[k, WAY] = bars[k, IMPULSE], more
+            bars[k, IMPULSE] += more
+        change = 0.0
+        for back in range(2):
+            change = _sweep(real, whole, bars, jacobian, ends, inverse, contacts, vel, back)
+            if change <= close:
+                return
+        done += 1.0
+        if done >= rounds or (change <= SMALL and done >= ENOUGH):
+            return
+        # Gradient: what the sweeps alone changed. Direction: it and a share of the one before.
+        size = 0.0
+        for k in range(contacts):
+            if whole[LIVE, k] == 1:
+                gn, gt = real[PN, k] - real[ON, k] - real[DN, k], real[PT, k] - real[OT, k] - real[DT, k]
+                size += (gn * gn + gt * gt) * real[EASE, k]
+                real[DN, k] += gn
+                real[DT, k] += gt
+        for k in range(len(bars)):
+            if bars[k, ACTIVE] == 1.0 and bars[k, HEFT] > 0.0:
+                more = bars[k, IMPULSE] - bars[k, OLD] - bars[k, WAY]
+                size += more * more / bars[k, HEFT]
+                bars[k, WAY] += more
+        share = min(size / gone, 1.0) if gone > 0.0 else 0.0
+        gone = size
+
+
+@part
+def push_apart(world: World, crowd: Crowd, h: float) -> bool:
+    """Moves bodies so that overlap grows less; whether there was any. Rows and other contacts yield nothing."""
+    real, whole, contacts, inverse = crowd.real, crowd.whole, crowd.tally[CONTACTS], world.inverse
+    deepest = 0.0
+    for k in range(contacts):
+        deepest = max(deepest, -real[GAP, k])
+    if deepest <= SLOP:
+        return False
+    shift, bars, pos = crowd.shift, crowd.bars, crowd.pos
+    for i in range(len(shift)):
+        shift[i, 0], shift[i, 1], shift[i, 2] = 0.0, 0.0, 0.0
+    for k in range(contacts):
+        if real[GAP, k] >= 0.0:
+            real[LIFT, k] = 0.0
+        elif real[LIFT, k] > 0.0:
+            press(real, whole, inverse, k, real[LIFT, k], 0.0, shift)
+    for turn in range(PUSHES):
+        for step in range(contacts):
+            k = step if turn % 2 == 0 else contacts - 1 - step
+            gap = real[GAP, k]
+            wanted = -gap if gap > 0.0 else h * min(-gap * PUSH_RATE, PUSH_SPEED)
+            more = (wanted - opening(real, whole, k, shift)) * real[KN, k]
+            more = max(more, -real[LIFT, k])
+            if more != 0.0:
+                real[LIFT, k] += more
+                press(real, whole, inverse, k, more, 0.0, shift)
+        for k in range(len(crowd.rows)):
+            if bars[k, ACTIVE] == 1.0 and bars[k, MOST] == np.inf:
+                away = rate_of(crowd.jacobian, crowd.ends, k, shift)
+                if bars[k, LEAST] < 0.0 or away < -max(crowd.rows[k].gap, 0.0):
+                    haul(crowd.jacobian, crowd.ends, inverse, k, -away * bars[k, HEFT], shift)
+    for i in range(len(shift)):
+        for q in range(3):
+            if inverse[i, q] > 0.0:
+                pos[i, q] += shift[i, q]
+            shift[i, q] = 0.0
+    return True
