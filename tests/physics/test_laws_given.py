@@ -230,7 +230,7 @@ def test_a_course_of_two_coordinates_is_released_in_both() -> None:
     )
     moved = simulate(Scene((disc("A", 0, 1.25), floor(Material(0.0))), courses=courses), 2)
     t = moved.times
-    assert [event.time for event in events(moved, "released")] == [pytest.approx(0.5, abs=1e-9)]
+    assert {round(event.time, 9) for event in events(moved, "released")} == {0.5}
     assert off(moved.path("A"), np.column_stack([t, np.maximum(1.25 - 2 * t, 0.25)]), 2.0) < 1e-9
 
 
