@@ -11,8 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from physics.engine.robust.forces import ends_of, normal_of, pull_of, pulls, value
-from physics.engine.robust.rows import turned
+from physics.engine.cells import head
+from physics.engine.forces import ends_of, normal_of, pull_of, pulls
+from physics.engine.rows import turned
+from physics.engine.tables import WORLD, link_of, push_of, support_of, value
 from physics.engine.world import SPRING, WIRE, Names, World
 from physics.jit import kernel
 from sketch.ink import FloatArray
@@ -39,7 +41,7 @@ def applied(world: World, names: Names, times: FloatArray, pos: FloatArray, vel:
     links, pushes, supports = len(world.links), len(world.pushes), len(world.supports)
     pulled, points = np.zeros((frames, links, 4)), np.zeros((frames, links, 4))
     pushed, given = np.zeros((frames, pushes, 2)), np.zeros((frames, supports, 2))
-    _frames(world, times, pos, vel, pulled, points, pushed, given)
+    _frames(world.cells, times, pos, vel, pulled, points, pushed, given)
     acts: list[Act] = []
     if np.any(world.gravity):
         for body in range(names.movable):
@@ -69,7 +71,7 @@ def applied(world: World, names: Names, times: FloatArray, pos: FloatArray, vel:
 
 @kernel
 def _frames(
-    world: World,
+    cells: FloatArray,
     times: FloatArray,
     pos: FloatArray,
     vel: FloatArray,
@@ -78,39 +80,44 @@ def _frames(
     pushed: FloatArray,
     given: FloatArray,
 ) -> None:
+    w = head(cells, WORLD)
     for frame in range(len(times)):
         t, x, v = times[frame], pos[frame], vel[frame]
-        for k in range(len(world.links)):
-            if pulls(world, k):
-                pull, _ = pull_of(world, k, t, x, v)
-                ax, ay, bx, by, ux, uy, wx, wy, _ = ends_of(world, k, x)
-                i, j = world.links[k].i, world.links[k].j
+        for k in range(w.links):
+            if pulls(w, k):
+                pull, _ = pull_of(w, k, t, x, v)
+                ax, ay, bx, by, ux, uy, wx, wy, _ = ends_of(w, k, x)
+                i, j = link_of(w, k).i, link_of(w, k).j
                 pulled[frame, k, 0], pulled[frame, k, 1] = pull * ux, pull * uy
                 pulled[frame, k, 2], pulled[frame, k, 3] = pull * wx, pull * wy
                 points[frame, k, 0], points[frame, k, 1] = x[i, 0] + ax, x[i, 1] + ay
                 points[frame, k, 2], points[frame, k, 3] = x[j, 0] + bx, x[j, 1] + by
-        for k in range(len(world.pushes)):
-            pushed[frame, k, 0] = value(world, world.pushes[k].x, t, x, v)
-            pushed[frame, k, 1] = value(world, world.pushes[k].y, t, x, v)
-        for k in range(len(world.supports)):
-            if world.supports[k].over == 1:
-                size = value(world, world.supports[k].force, t, x, v)
-                nx, ny = normal_of(world, k, x)
+        for k in range(w.pushes):
+            push = push_of(w, k)
+            pushed[frame, k, 0] = value(w, push.x, t, x, v)
+            pushed[frame, k, 1] = value(w, push.y, t, x, v)
+        for k in range(w.supports):
+            support = support_of(w, k)
+            if support.over == 1:
+                size = value(w, support.force, t, x, v)
+                nx, ny = normal_of(w, k, x)
                 given[frame, k, 0], given[frame, k, 1] = size * nx, size * ny
 
 
 def link_ends(world: World, pos: FloatArray) -> FloatArray:
     """Where links end, (T, links, 2, 2) m. pos: (T, bodies + 1, 3)."""
     ends = np.zeros((len(pos), len(world.links), 2, 2))
-    _ends(world, pos, ends)
+    if len(world.links):
+        _ends(world.cells, pos, ends)
     return ends
 
 
 @kernel
-def _ends(world: World, pos: FloatArray, ends: FloatArray) -> None:
+def _ends(cells: FloatArray, pos: FloatArray, ends: FloatArray) -> None:
+    w = head(cells, WORLD)
     for frame in range(len(pos)):
-        for k in range(len(world.links)):
-            link = world.links[k]
+        for k in range(w.links):
+            link = link_of(w, k)
             i, j = link.i, link.j
             ax, ay = turned(pos[frame, i, 2], link.ax, link.ay)
             bx, by = turned(pos[frame, j, 2], link.bx, link.by)

@@ -3,8 +3,8 @@
 To hand a compiled function a dozen arrays costs more than most of them compute: each is copied word by
 word, and counted. So a cluster's tables lie behind one another in one array of 8-byte cells, headed by
 a record that says how many there are of each and where they begin (in bytes). Inside kernels `head`
-gives that record, which is a bare pointer; `record`, `line`, `grid` and `integers` give what lies at an
-offset from it. They own nothing: the array must outlive the call. Python sees the same memory through
+gives that record, which is a bare pointer; `record`, `line`, `grid`, `integers` and `integer_grid` give what lies
+at an offset from it. They own nothing: the array must outlive the call. Python sees the same memory through
 ordinary numpy views (`Layout.view`).
 """
 
@@ -50,9 +50,13 @@ class Layout:
             cells[start : start + block.nbytes // 8] = block.view(np.float64).ravel() if block.size else 0.0
         return cells
 
+    def head_of(self, cells: FloatArray) -> NDArray[Any]:
+        """The head of such cells, as one record."""
+        return cells[: self.head.itemsize // 8].view(self.head)[0]
+
     def view(self, cells: FloatArray, name: str, like: NDArray[Any]) -> NDArray[Any]:
         """The block of that name within the cells, shaped and typed as `like`."""
-        start = int(cells[: self.head.itemsize // 8].view(self.head)[f"{name}_at"][0]) // 8
+        start = int(self.head_of(cells)[f"{name}_at"]) // 8
         return cells[start : start + like.nbytes // 8].view(like.dtype).reshape(like.shape)
 
 
@@ -127,13 +131,26 @@ def integers(_typing: Any, start: Any, offset: Any, n: Any) -> Any:
     return _lines(types.int64)(_typing, start, offset, n)
 
 
+def _grids(dtype: Any) -> Any:
+    kind = types.Array(dtype, 2, "C")
+
+    def typed(_typing: Any, start: Any, offset: Any, n: Any, m: Any) -> Any:
+        def code(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            place = _pointer(context, builder, signature.args[0], args[0], args[1])
+            return _array(context, builder, kind, place, [args[2], args[3]])
+
+        return kind(start, types.int64, types.int64, types.int64), code
+
+    return typed
+
+
 @intrinsic
 def grid(_typing: Any, start: Any, offset: Any, n: Any, m: Any) -> Any:
     """grid(head, bytes, n, m): n lines of m float64 at an offset."""
-    kind = types.Array(types.float64, 2, "C")
+    return _grids(types.float64)(_typing, start, offset, n, m)
 
-    def code(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        place = _pointer(context, builder, signature.args[0], args[0], args[1])
-        return _array(context, builder, kind, place, [args[2], args[3]])
 
-    return kind(start, types.int64, types.int64, types.int64), code
+@intrinsic
+def integer_grid(_typing: Any, start: Any, offset: Any, n: Any, m: Any) -> Any:
+    """integer_grid(head, bytes, n, m): n lines of m int64 at an offset."""
+    return _grids(types.int64)(_typing, start, offset, n, m)

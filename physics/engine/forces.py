@@ -26,7 +26,7 @@ from physics.engine.tables import (
     support_of,
     value,
 )
-from physics.engine.world import SPRING, WIRE
+from physics.engine.world import SPRING, WIRE, World
 from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
@@ -167,10 +167,9 @@ def clearance(w: Any, k: int, pos: FloatArray, vel: FloatArray) -> tuple[float, 
     return gap + lowest, rate + vel[i, 2] * lever, along
 
 
-@part
-def ledger_size(w: Any) -> int:
+def ledger_size(world: World) -> int:
     """Entries of the ledger: heat, then the work of each push, link, given normal force and course."""
-    return 1 + w.pushes + w.links + w.supports + w.courses
+    return 1 + len(world.pushes) + len(world.links) + len(world.supports) + len(world.courses)
 
 
 @part

@@ -66,6 +66,10 @@ class World(NamedTuple):
     cells: FloatArray
     """The memory that all of these are views of (physics.engine.tables)."""
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled as its tables, which are views of one memory again when they are read."""
+        return gathered, (self[:-1], int(LAYOUT.head_of(self.cells)["movable"]))
+
 
 @dataclass(frozen=True, slots=True)
 class Names:
@@ -110,11 +114,12 @@ def world_of(scene: Scene, members: Sequence[str]) -> tuple[World, Names]:
         row["ax"], row["ay"] = link.start.point
         row["bx"], row["by"] = link.end.point
         row["tension"], row["over"], row["limit"] = -1, -1, inf
+        row["reader"] = i if i < len(bodies) else j
         if isinstance(link, WireLink):
             row["kind"], row["rest"], row["tolerance"] = WIRE, link.rest, link.tolerance
             row["limit"] = inf if link.limit is None else link.limit
             if link.tension is not None:
-                row["tension"] = programs.add(link.tension, i if i < len(bodies) else j)
+                row["tension"] = programs.add(link.tension, int(row["reader"]))
             if link.over is not None:
                 row["over"], row["sense"] = number[link.over.body], -1.0 if link.over.clockwise else 1.0
         elif isinstance(link, SpringLink):
@@ -289,7 +294,8 @@ def _shapes(
 
 
 def _pairs(everyone: list[Body], movable: int, links: Table, supports: Table) -> Table:
-    """Pairs with one that moves, but those that a pin joins and the wheel of a wire's own pulley."""
+    """Pairs with one that moves, but those that a pin joins. A load may well hit the wheel that its own wire runs
+    over."""
     apart = {frozenset((int(link["i"]), int(link["j"]))) for link in links if link["kind"] == PIN}
     given = {frozenset((int(s["i"]), int(s["j"]))): k for k, s in enumerate(supports)}
     rows: list[tuple[int, int, int, float, float, float, float]] = []

@@ -5,10 +5,12 @@ The list holds until some body has used up its room, so a pile at rest is swept 
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.engine.world import World
+from physics.engine.tables import corners, counts, firsts, radii, reaches
 from physics.jit import part
 from sketch.ink import FloatArray
 
@@ -21,20 +23,21 @@ lists pairs that never meet."""
 
 @part
 def left(
-    world: World, movable: int, pos: FloatArray, vel: FloatArray, home: FloatArray, room: FloatArray, h: float
+    w: Any, movable: int, pos: FloatArray, vel: FloatArray, home: FloatArray, room: FloatArray, h: float
 ) -> bool:
     """Whether a body may leave its box within the next h seconds. home: poses at the last sweep."""
+    reach = reaches(w)
     for i in range(movable):
         moved = abs(pos[i, 0] - home[i, 0]) + abs(pos[i, 1] - home[i, 1])
-        moved += abs(pos[i, 2] - home[i, 2]) * world.reach[i]
-        if moved + h * (abs(vel[i, 0]) + abs(vel[i, 1]) + abs(vel[i, 2]) * world.reach[i]) > room[i]:
+        moved += abs(pos[i, 2] - home[i, 2]) * reach[i]
+        if moved + h * (abs(vel[i, 0]) + abs(vel[i, 1]) + abs(vel[i, 2]) * reach[i]) > room[i]:
             return True
     return False
 
 
 @part
 def sweep(
-    world: World,
+    w: Any,
     movable: int,
     pos: FloatArray,
     vel: FloatArray,
@@ -54,14 +57,14 @@ def sweep(
     least: room that every body gets, m; boxes: (bodies, 4) x from, x to, y from, y to; order: bodies by
     x, kept from sweep to sweep; table: (bodies, bodies) number of a pair, -1: none.
     """
-    bodies = len(order)
+    bodies, reach = len(order), reaches(w)
     for i in range(bodies):
         room[i] = 0.0
         if i < movable:
-            room[i] = least + 2.0 * h * (abs(vel[i, 0]) + abs(vel[i, 1]) + abs(vel[i, 2]) * world.reach[i])
+            room[i] = least + 2.0 * h * (abs(vel[i, 0]) + abs(vel[i, 1]) + abs(vel[i, 2]) * reach[i])
         for k in range(3):
             home[i, k] = pos[i, k]
-        _box(world, i, pos, turns, room[i], boxes)
+        _box(w, i, pos, turns, room[i], boxes)
     for k in range(1, bodies):
         one = order[k]
         at = k
@@ -87,12 +90,12 @@ def sweep(
 
 
 @part
-def _box(world: World, i: int, pos: FloatArray, turns: FloatArray, room: float, boxes: FloatArray) -> None:
-    radius = world.radius[i]
+def _box(w: Any, i: int, pos: FloatArray, turns: FloatArray, room: float, boxes: FloatArray) -> None:
+    radius, first, points = radii(w)[i], firsts(w)[i], corners(w)
     x1, x2, y1, y2 = -radius, radius, -radius, radius
     c, s = turns[i, 0], turns[i, 1]
-    for k in range(world.first[i], world.first[i] + world.count[i]):
-        x, y = world.corners[k, 0], world.corners[k, 1]
+    for k in range(first, first + counts(w)[i]):
+        x, y = points[k, 0], points[k, 1]
         u, v = c * x - s * y, s * x + c * y
         x1, x2, y1, y2 = min(x1, u), max(x2, u), min(y1, v), max(y2, v)
     boxes[i, 0], boxes[i, 1] = pos[i, 0] + x1 - room, pos[i, 0] + x2 + room

@@ -8,19 +8,8 @@ body only h − τ long, so the way is put right by −τ Δv: a bounce is then 
 from __future__ import annotations
 
 from math import hypot, sqrt
+from typing import Any
 
-from physics.engine.robust.crowd import (
-    ACTIVE,
-    ASIDE,
-    CLOSING,
-    CONTACTS,
-    GIVES,
-    GOAL,
-    IMPULSE,
-    LEAST,
-    WHEN,
-    Crowd,
-)
 from physics.engine.robust.manifold import (
     BOUNCE,
     GAIN,
@@ -40,9 +29,31 @@ from physics.engine.robust.manifold import (
     WN,
     WT,
 )
-from physics.engine.robust.rows import CORD
+from physics.engine.robust.memory import (
+    ACTIVE,
+    ASIDE,
+    CLOSING,
+    CONTACTS,
+    GIVES,
+    GOAL,
+    IMPULSE,
+    LEAST,
+    WHEN,
+    acc_of,
+    bars_of,
+    ends_of,
+    jacobian_of,
+    real_of,
+    row_of,
+    shift_of,
+    tally_of,
+    vel_of,
+    when_of,
+    whole_of,
+)
 from physics.engine.robust.soft import haul, opening, press, rate_of, settle, slipping
-from physics.engine.world import World
+from physics.engine.rows import CORD
+from physics.engine.tables import gravity, inverses
 from physics.jit import part
 
 FAST = 1e-4
@@ -72,13 +83,13 @@ def approach(gap: float, rate: float, pull: float, lag: float, h: float) -> tupl
 
 
 @part
-def strike(world: World, crowd: Crowd, h: float, lag: float) -> float:
+def strike(w: Any, m: Any, h: float, lag: float) -> float:
     """Gives all that collides within the substep its velocity afterwards; the energy that
     is lost, J, or −1 if nothing collides. HIT of a contact becomes the fastest approach, m/s, of those that were struck, else zero."""
-    vel, real, whole, bars = crowd.vel, crowd.real, crowd.whole, crowd.bars
-    contacts, rows = crowd.tally[CONTACTS], len(crowd.rows)
-    gx, gy = world.gravity[0], world.gravity[1]
-    acc, since = crowd.acc, crowd.when
+    vel, real, whole, bars = vel_of(m), real_of(m), whole_of(m), bars_of(m)
+    contacts, rows = tally_of(m)[CONTACTS], m.rows
+    gx, gy = gravity(w)[0], gravity(w)[1]
+    acc, since, jacobian, ends = acc_of(m), when_of(m), jacobian_of(m), ends_of(m)
     for k in range(contacts):
         real[HIT, k] = 0.0
     rounds = 0
@@ -91,7 +102,7 @@ def strike(world: World, crowd: Crowd, h: float, lag: float) -> float:
             whole[LIVE, k] = 0
             if rate < -FAST - h * abs(real[NX, k] * gx + real[NY, k] * gy):
                 if not struck and rounds == 0:
-                    _begin(crowd)
+                    _begin(m)
                 struck = True
                 whole[LIVE, k] = 1
                 real[HIT, k] = max(real[HIT, k], -rate)
@@ -100,21 +111,21 @@ def strike(world: World, crowd: Crowd, h: float, lag: float) -> float:
                 if rounds > 0:
                     real[TAU, k] = max(when, since[whole[ONE, k]], since[whole[OTHER, k]])
         for k in range(rows):
-            row = crowd.rows[k]
-            rate = rate_of(crowd.jacobian, crowd.ends, k, vel)
+            row = row_of(m, k)
+            rate = rate_of(jacobian, ends, k, vel)
             bars[k, GOAL] = min(rate, 0.0) if bars[k, LEAST] == 0.0 else rate
             bars[k, WHEN], bars[k, CLOSING] = -1.0, 0.0
             if row.kind == CORD and bars[k, ACTIVE] == 1.0:
-                pull = rate_of(crowd.jacobian, crowd.ends, k, acc)
+                pull = rate_of(jacobian, ends, k, acc)
                 rate, when = approach(row.gap, rate, pull, lag, h)
                 if rate < -FAST - 2.0 * h * (abs(row.c) + hypot(gx, gy)):
                     if not struck and rounds == 0:
-                        _begin(crowd)
+                        _begin(m)
                     struck = True
                     bars[k, GOAL], bars[k, WHEN], bars[k, CLOSING] = -(lag + when) * pull, when, rate
         if not struck:
             break
-        loss += _solve(world, crowd, rounds < ROUNDS)
+        loss += _solve(w, m, rounds < ROUNDS)
         rounds += 1
     if rounds > 0:
         for k in range(contacts):
@@ -127,22 +138,22 @@ def strike(world: World, crowd: Crowd, h: float, lag: float) -> float:
 
 
 @part
-def _begin(crowd: Crowd) -> None:
+def _begin(m: Any) -> None:
     """Keeps the impulses of the last substep aside."""
-    real, bars = crowd.real, crowd.bars
-    for k in range(crowd.tally[CONTACTS]):
+    real, bars = real_of(m), bars_of(m)
+    for k in range(tally_of(m)[CONTACTS]):
         real[WN, k], real[WT, k] = real[PN, k], real[PT, k]
-    for k in range(len(crowd.rows)):
+    for k in range(m.rows):
         bars[k, ASIDE] = bars[k, IMPULSE]
 
 
 @part
-def _solve(world: World, crowd: Crowd, lively: bool) -> float:
+def _solve(w: Any, m: Any, lively: bool) -> float:
     """One round; the energy that it takes, J. Newton's restitution and friction together can create energy (Kane
     and Levinson 1985): then the round is dead, which never does."""
-    vel, real, whole, bars = crowd.vel, crowd.real, crowd.whole, crowd.bars
-    contacts, rows, inverse = crowd.tally[CONTACTS], len(bars), world.inverse
-    jacobian, ends, shift, since = crowd.jacobian, crowd.ends, crowd.shift, crowd.when
+    vel, real, whole, bars = vel_of(m), real_of(m), whole_of(m), bars_of(m)
+    contacts, rows, inverse = tally_of(m)[CONTACTS], len(bars), inverses(w)
+    jacobian, ends, shift, since = jacobian_of(m), ends_of(m), shift_of(m), when_of(m)
     for k in range(contacts):
         real[SLIP, k] = slipping(real, whole, k, vel)
     bounce, loss = 1.0 if lively else 0.0, 0.0

@@ -2,39 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from physics.engine.robust.manifold import REALS, WHOLES
-from physics.engine.robust.rows import CORD, GIVEN, PIN_X, PIN_Y, POINT, ROW
+from physics.engine.robust.memory import BARS, BLOCKS, EVENT, LAYOUT
+from physics.engine.rows import CORD, GIVEN, PIN_X, PIN_Y, POINT, ROW
 from physics.engine.world import PIN, WIRE, Names, Table, World
 from sketch.ink import FloatArray
 
 IntArray = NDArray[np.int64]
-
-CONTACTS, PAIRS, EVENTS, RECORDS, PRESSED, NEEDS, DONE, STOPPED, STILL, SWEPT = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
-"""Columns of `tally`: contacts; pairs that are near; events, records and recorded contact forces; what must
-grow; substeps done; the program without a value (−1: none); substeps without any motion; whether the pairs
-were ever swept."""
-
-BUCKLED, GIVES, LEAST, MOST, GOAL, HEFT = 0, 1, 2, 3, 4, 5
-"""Columns of `bars`, one line for each row of `rows`: whether its wire hangs slack; the greatest impulse of an
-impact in this substep, N s; bounds of its impulse, N s; the rate wanted, m/s; the mass it meets, kg."""
-IMPULSE, WHEN, ASIDE, ACTIVE, OLD, WAY, CLOSING = 6, 7, 8, 9, 10, 11, 12
-"""Impulse; moment of an impact, s; impulse kept aside; taking part; impulse a round ago, and the direction in
-which it goes on; how fast a wire tautens, m/s."""
-BARS = 13
-
-LAST = 0
-"""Column of `reals`: length of the last kick, s."""
-
-EVENT = 4
-"""An event: time, kind, number, value."""
-
-FORCE = 6
-"""A recorded contact force: normal, friction, where it acts: on the pair's second body."""
 
 
 class Crowd(NamedTuple):
@@ -82,6 +62,12 @@ class Crowd(NamedTuple):
     reals: FloatArray
     tally: IntArray
     events: FloatArray
+    cells: FloatArray
+    """The memory that all of these are views of (physics.engine.robust.memory)."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled as its tables, which are views of one memory again when they are read."""
+        return gathered, (self[:-1],)
 
 
 class Record(NamedTuple):
@@ -110,11 +96,11 @@ def crowd_of(world: World, names: Names, pos: FloatArray, vel: FloatArray, ledge
     def flat() -> FloatArray:
         return np.zeros((bodies + 1, 3))
 
-    return Crowd(
-        pos.copy(),
-        vel.copy(),
+    arrays: tuple[NDArray[Any], ...] = (
+        pos,
+        vel,
         flat(),
-        vel.copy(),
+        vel,
         flat(),
         flat(),
         flat(),
@@ -137,11 +123,26 @@ def crowd_of(world: World, names: Names, pos: FloatArray, vel: FloatArray, ledge
         np.zeros(len(world.supports) + len(world.courses)),
         np.full(bodies, np.inf),
         np.zeros(len(ledger)),
-        ledger.copy(),
+        ledger,
         np.zeros(1),
         np.array([0, 0, 0, 0, 0, 0, 0, -1, 0, 0], np.int64),
         np.zeros((64, EVENT)),
     )
+    return gathered(arrays)
+
+
+def gathered(arrays: Sequence[NDArray[Any]]) -> Crowd:
+    """A crowd of copies of these arrays (the fields of `Crowd` but the last), in one piece of memory."""
+    named = dict(zip(BLOCKS, arrays, strict=True))
+    counts = {
+        "bodies": len(named["pos"]),
+        "columns": named["real"].shape[1],
+        **{name: len(named[name]) for name in ("near", "rows", "asked", "events")},
+        "pairs": len(named["touching"]),
+        "entries": len(named["ledger"]),
+    }
+    cells = LAYOUT.laid(counts, named)
+    return Crowd(*(LAYOUT.view(cells, name, array) for name, array in named.items()), cells)
 
 
 def contact_room(pairs: int) -> tuple[FloatArray, IntArray, FloatArray, IntArray]:
@@ -168,6 +169,7 @@ def rows_of(world: World) -> Table:
         if link["kind"] == WIRE and link["tension"] < 0:
             row = _joint(CORD, number, link)
             row["length"], row["feature"], row["sigma"] = link["rest"], link["over"], link["sense"]
+            row["ri"] = 0.0 if link["over"] < 0 else world.radius[link["over"]]
             found.append(row)
         elif link["kind"] == PIN:
             found += [_joint(PIN_X, number, link), _joint(PIN_Y, number, link)]

@@ -11,11 +11,12 @@ Frame: SI units, y up; the normal points from body ONE to body OTHER.
 from __future__ import annotations
 
 from math import hypot
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.engine.world import World
+from physics.engine.tables import corners, counts, edges, firsts, normals, pair_of, radii
 from physics.jit import part
 from sketch.ink import FloatArray
 
@@ -46,7 +47,7 @@ faces that lie flush take turns."""
 
 @part
 def meet(
-    world: World,
+    w: Any,
     pair: int,
     pos: FloatArray,
     turns: FloatArray,
@@ -59,45 +60,46 @@ def meet(
 
     turns: (bodies, 2) cosine and sine of every body's angle.
     """
-    row = world.pairs[pair]
+    row = pair_of(w, pair)
+    count, radius = counts(w), radii(w)
     i, j = row.i, row.j
     dx, dy = pos[j, 0] - pos[i, 0], pos[j, 1] - pos[i, 1]
     reach = row.reach + margin
     if dx * dx + dy * dy > reach * reach:
         return 0
-    if world.count[i] == 0 and world.count[j] == 0:
-        if hypot(dx, dy) - world.radius[i] - world.radius[j] > margin:
+    if count[i] == 0 and count[j] == 0:
+        if hypot(dx, dy) - radius[i] - radius[j] > margin:
             return 0
-        _put(world, pair, i, j, real, whole, at)
-        real[RI, at], real[RJ, at] = world.radius[i], world.radius[j]
+        _put(w, pair, i, j, real, whole, at)
+        real[RI, at], real[RJ, at] = radius[i], radius[j]
         return 1
-    if world.count[i] == 0 or world.count[j] == 0:
-        one, other = (i, j) if world.count[j] == 0 else (j, i)
-        return _disc_on_block(world, pair, one, other, pos, turns, margin, real, whole, at)
-    gap_i, face_i = _widest(world, i, j, pos, turns, margin)
+    if count[i] == 0 or count[j] == 0:
+        one, other = (i, j) if count[j] == 0 else (j, i)
+        return _disc_on_block(w, pair, one, other, pos, turns, margin, real, whole, at)
+    gap_i, face_i = _widest(w, i, j, pos, turns, margin)
     if gap_i > margin:
         return 0
-    gap_j, face_j = _widest(world, j, i, pos, turns, margin)
+    gap_j, face_j = _widest(w, j, i, pos, turns, margin)
     if gap_j > margin:
         return 0
     one, other, face = i, j, face_i
     if gap_j > gap_i + FLUSH:
         one, other, face = j, i, face_j
-    return _clip(world, pair, one, other, face, pos, turns, margin, real, whole, at)
+    return _clip(w, pair, one, other, face, pos, turns, margin, real, whole, at)
 
 
 @part
-def _put(world: World, pair: int, i: int, j: int, real: FloatArray, whole: IntArray, at: int) -> None:
+def _put(w: Any, pair: int, i: int, j: int, real: FloatArray, whole: IntArray, at: int) -> None:
     whole[ONE, at], whole[OTHER, at], whole[KIND, at] = i, j, POINT
     whole[PAIR, at], whole[FEATURE, at], whole[LIVE, at] = pair, -1, 1
     for k in range(REALS):
         real[k, at] = 0.0
-    real[BOUNCE, at], real[MU, at] = world.pairs[pair].e, world.pairs[pair].mu
+    real[BOUNCE, at], real[MU, at] = pair_of(w, pair).e, pair_of(w, pair).mu
 
 
 @part
 def _disc_on_block(
-    world: World,
+    w: Any,
     pair: int,
     i: int,
     j: int,
@@ -111,29 +113,28 @@ def _disc_on_block(
     c, s = turns[i, 0], turns[i, 1]
     dx, dy = pos[j, 0] - pos[i, 0], pos[j, 1] - pos[i, 1]
     x, y = c * dx + s * dy, c * dy - s * dx
-    radius = world.radius[j]
-    first, count = world.first[i], world.count[i]
+    radius = radii(w)[j]
+    first, count = firsts(w)[i], counts(w)[i]
+    points, ways = corners(w), normals(w)
     best, face = -1e300, first
     for k in range(first, first + count):
-        gap = world.normals[k, 0] * (x - world.corners[k, 0]) + world.normals[k, 1] * (
-            y - world.corners[k, 1]
-        )
+        gap = ways[k, 0] * (x - points[k, 0]) + ways[k, 1] * (y - points[k, 1])
         if gap > best:
             best, face = gap, k
     if best - radius > margin:
         return 0
-    x1, y1 = world.corners[face, 0], world.corners[face, 1]
-    nx, ny = world.normals[face, 0], world.normals[face, 1]
+    x1, y1 = points[face, 0], points[face, 1]
+    nx, ny = ways[face, 0], ways[face, 1]
     along = nx * (y - y1) - ny * (x - x1)
-    if best > 0.0 and (along < 0.0 or along > world.edges[face]):
+    if best > 0.0 and (along < 0.0 or along > edges(w)[face]):
         if along > 0.0:
             face = face + 1 if face + 1 < first + count else first
-        x1, y1 = world.corners[face, 0], world.corners[face, 1]
+        x1, y1 = points[face, 0], points[face, 1]
         if hypot(x - x1, y - y1) - radius > margin:
             return 0
-        _put(world, pair, i, j, real, whole, at)
+        _put(w, pair, i, j, real, whole, at)
     else:
-        _put(world, pair, i, j, real, whole, at)
+        _put(w, pair, i, j, real, whole, at)
         whole[KIND, at], whole[FEATURE, at] = FACE, face
         real[MX, at], real[MY, at] = nx, ny
     real[AX, at], real[AY, at], real[RJ, at] = x1, y1, radius
@@ -141,22 +142,22 @@ def _disc_on_block(
 
 
 @part
-def _widest(
-    world: World, i: int, j: int, pos: FloatArray, turns: FloatArray, margin: float
-) -> tuple[float, int]:
+def _widest(w: Any, i: int, j: int, pos: FloatArray, turns: FloatArray, margin: float) -> tuple[float, int]:
     """The face of i that keeps j farthest away, and how far; any face that keeps it beyond the margin."""
     ci, si, cj, sj = turns[i, 0], turns[i, 1], turns[j, 0], turns[j, 1]
     dx, dy = pos[j, 0] - pos[i, 0], pos[j, 1] - pos[i, 1]
     x, y = ci * dx + si * dy, ci * dy - si * dx
     c, s = ci * cj + si * sj, ci * sj - si * cj
+    points, ways = corners(w), normals(w)
+    first, last = firsts(w)[j], firsts(w)[j] + counts(w)[j]
     best, face = -1e300, 0
-    for k in range(world.first[i], world.first[i] + world.count[i]):
-        nx, ny = world.normals[k, 0], world.normals[k, 1]
+    for k in range(firsts(w)[i], firsts(w)[i] + counts(w)[i]):
+        nx, ny = ways[k, 0], ways[k, 1]
         mx, my = c * nx + s * ny, c * ny - s * nx  # the normal in j's frame
         nearest = 1e300
-        for q in range(world.first[j], world.first[j] + world.count[j]):
-            nearest = min(nearest, mx * world.corners[q, 0] + my * world.corners[q, 1])
-        gap = nearest + nx * (x - world.corners[k, 0]) + ny * (y - world.corners[k, 1])
+        for q in range(first, last):
+            nearest = min(nearest, mx * points[q, 0] + my * points[q, 1])
+        gap = nearest + nx * (x - points[k, 0]) + ny * (y - points[k, 1])
         if gap > best:
             best, face = gap, k
             if gap > margin:
@@ -166,7 +167,7 @@ def _widest(
 
 @part
 def _clip(
-    world: World,
+    w: Any,
     pair: int,
     i: int,
     j: int,
@@ -182,22 +183,18 @@ def _clip(
     dx, dy = pos[j, 0] - pos[i, 0], pos[j, 1] - pos[i, 1]
     x, y = ci * dx + si * dy, ci * dy - si * dx
     c, s = ci * cj + si * sj, ci * sj - si * cj
-    nx, ny = world.normals[face, 0], world.normals[face, 1]
+    points, ways = corners(w), normals(w)
+    nx, ny = ways[face, 0], ways[face, 1]
     mx, my = c * nx + s * ny, c * ny - s * nx
-    first, count = world.first[j], world.count[j]
+    first, count = firsts(w)[j], counts(w)[j]
     most, start = 1e300, first
     for q in range(first, first + count):
-        facing = mx * world.normals[q, 0] + my * world.normals[q, 1]
+        facing = mx * ways[q, 0] + my * ways[q, 1]
         if facing < most:
             most, start = facing, q
     end = start + 1 if start + 1 < first + count else first
-    x1, y1 = world.corners[face, 0], world.corners[face, 1]
-    ax, ay, bx, by = (
-        world.corners[start, 0],
-        world.corners[start, 1],
-        world.corners[end, 0],
-        world.corners[end, 1],
-    )
+    x1, y1 = points[face, 0], points[face, 1]
+    ax, ay, bx, by = points[start, 0], points[start, 1], points[end, 0], points[end, 1]
     # Both ends of the edge in i's frame, along the face (anti-clockwise) and out of it.
     sx, sy = x + c * ax - s * ay - x1, y + s * ax + c * ay - y1
     ex, ey = x + c * bx - s * by - x1, y + s * bx + c * by - y1
@@ -207,12 +204,12 @@ def _clip(
         return 0
     found = 0
     for slot in range(2):
-        u = min(max(u1 if slot == 0 else u2, 0.0), world.edges[face])
+        u = min(max(u1 if slot == 0 else u2, 0.0), edges(w)[face])
         share = (u - u1) / (u2 - u1)
         if share < 0.0 or share > 1.0 or d1 + share * (d2 - d1) > margin:
             continue
         row = at + found
-        _put(world, pair, i, j, real, whole, row)
+        _put(w, pair, i, j, real, whole, row)
         whole[KIND, row], whole[FEATURE, row] = FACE, 2 * face + slot
         real[AX, row], real[AY, row], real[MX, row], real[MY, row] = x1, y1, nx, ny
         real[BX, row], real[BY, row] = ax + share * (bx - ax), ay + share * (by - ay)

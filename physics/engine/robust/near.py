@@ -9,9 +9,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.engine.robust.broad import left, sweep
-from physics.engine.robust.crowd import CONTACTS, NEEDS, PAIRS, SWEPT, Crowd
 from physics.engine.robust.manifold import FEATURE, LIFT, PAIR, PN, PT, REALS, WHOLES, meet
-from physics.engine.world import World
+from physics.engine.robust.memory import (
+    CONTACTS,
+    NEEDS,
+    PAIRS,
+    SWEPT,
+    boxes_of,
+    home_of,
+    near_of,
+    old_real_of,
+    old_whole_of,
+    order_of,
+    pos_of,
+    real_of,
+    room_of,
+    seen_of,
+    table_of,
+    tally_of,
+    turns_of,
+    vel_of,
+    whole_of,
+)
+from physics.engine.tables import pair_of, reaches, support_of
 from physics.jit import part
 from sketch.ink import FloatArray
 
@@ -23,57 +43,49 @@ anew: at rest they are found once."""
 
 
 @part
-def find(world: World, crowd: Crowd, movable: int, h: float, room: float) -> bool:
+def find(w: Any, m: Any, movable: int, h: float, room: float) -> bool:
     """Brings pairs and contacts up to date. False, with `NEEDS` set, if the tables are too small."""
-    tally = crowd.tally
-    fresh = tally[SWEPT] == 0 or left(world, movable, crowd.pos, crowd.vel, crowd.home, crowd.room, h)
+    tally, pos, vel, home, room_left = tally_of(m), pos_of(m), vel_of(m), home_of(m), room_of(m)
+    near, seen = near_of(m), seen_of(m)
+    fresh = tally[SWEPT] == 0 or left(w, movable, pos, vel, home, room_left, h)
     if fresh:
         found = sweep(
-            world,
+            w,
             movable,
-            crowd.pos,
-            crowd.vel,
-            crowd.turns,
+            pos,
+            vel,
+            turns_of(m),
             h,
             room,
-            crowd.home,
-            crowd.room,
-            crowd.boxes,
-            crowd.order,
-            crowd.table,
-            crowd.near,
+            home,
+            room_left,
+            boxes_of(m),
+            order_of(m),
+            table_of(m),
+            near,
         )
-        if found > len(crowd.near):
+        if found > m.near:
             tally[SWEPT] = 0
             tally[NEEDS] = found
             return False
         tally[PAIRS], tally[SWEPT] = found, 1
         for q in range(found):
-            crowd.seen[q, 4] = 0.0
-    if (
-        _passed(world.pairs, world.reach, crowd.near, crowd.seen, tally[PAIRS], crowd.pos, crowd.vel, h)
-        or fresh
-    ):
-        _rebuild(world, crowd, h)
+            seen[q, 4] = 0.0
+    if _passed(w, near, seen, tally[PAIRS], pos, vel, h) or fresh:
+        _rebuild(w, m, h)
     return True
 
 
 @part
 def _passed(
-    pairs: Any,
-    reach: FloatArray,
-    near: IntArray,
-    seen: FloatArray,
-    count: int,
-    pos: FloatArray,
-    vel: FloatArray,
-    h: float,
+    w: Any, near: IntArray, seen: FloatArray, count: int, pos: FloatArray, vel: FloatArray, h: float
 ) -> bool:
     """Marks the near pairs whose bodies may have moved past each other within the next h seconds; whether
     there are any."""
+    reach = reaches(w)
     stale = False
     for q in range(count):
-        pair = pairs[near[q, 0]]
+        pair = pair_of(w, near[q, 0])
         i, j = pair.i, pair.j
         moved = abs(pos[j, 0] - pos[i, 0] - seen[q, 0]) + abs(pos[j, 1] - pos[i, 1] - seen[q, 1])
         moved += abs(pos[i, 2] - seen[q, 2]) * reach[i] + abs(pos[j, 2] - seen[q, 3]) * reach[j]
@@ -90,10 +102,11 @@ def _speed(reach: FloatArray, vel: FloatArray, i: int, j: int) -> float:
 
 
 @part
-def _rebuild(world: World, crowd: Crowd, h: float) -> None:
-    real, whole, old_real, old_whole = crowd.real, crowd.whole, crowd.old_real, crowd.old_whole
-    near, seen, pos, turns, pairs = crowd.near, crowd.seen, crowd.pos, crowd.turns, world.pairs
-    before = crowd.tally[CONTACTS]
+def _rebuild(w: Any, m: Any, h: float) -> None:
+    real, whole, old_real, old_whole = real_of(m), whole_of(m), old_real_of(m), old_whole_of(m)
+    near, seen, pos, turns = near_of(m), seen_of(m), pos_of(m), turns_of(m)
+    tally, vel, reach = tally_of(m), vel_of(m), reaches(w)
+    before = tally[CONTACTS]
     for k in range(before):
         for c in range(REALS):
             old_real[c, k] = real[c, k]
@@ -101,7 +114,7 @@ def _rebuild(world: World, crowd: Crowd, h: float) -> None:
             old_whole[c, k] = whole[c, k]
     # Numba would compile `meet` anew for a count that it knows to be zero.
     count, old = 0 * before, 0
-    for q in range(crowd.tally[PAIRS]):
+    for q in range(tally[PAIRS]):
         number = near[q, 0]
         while old < before and old_whole[PAIR, old] < number:
             old += 1
@@ -116,15 +129,15 @@ def _rebuild(world: World, crowd: Crowd, h: float) -> None:
                     whole[c, count] = old_whole[c, k]
                 count += 1
         else:
-            pair: Any = pairs[number]
+            pair = pair_of(w, number)
             i, j = pair.i, pair.j
             given = False
             if pair.support >= 0:
-                support: Any = world.supports[pair.support]
+                support = support_of(w, pair.support)
                 given = support.over == 1
             if not given:
-                margin = 4.0 * MOVED * pair.size + 2.0 * h * _speed(world.reach, crowd.vel, i, j)
-                found = meet(world, number, pos, turns, margin, real, whole, count)
+                margin = 4.0 * MOVED * pair.size + 2.0 * h * _speed(reach, vel, i, j)
+                found = meet(w, number, pos, turns, margin, real, whole, count)
                 for k in range(count, count + found):
                     for o in range(old, end):
                         if old_whole[FEATURE, o] == whole[FEATURE, k]:
@@ -134,4 +147,4 @@ def _rebuild(world: World, crowd: Crowd, h: float) -> None:
             seen[q, 0], seen[q, 1] = pos[j, 0] - pos[i, 0], pos[j, 1] - pos[i, 1]
             seen[q, 2], seen[q, 3], seen[q, 4] = pos[i, 2], pos[j, 2], 1.0
         old = end
-    crowd.tally[CONTACTS] = count
+    tally[CONTACTS] = count

@@ -17,8 +17,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from physics.engine.cells import head
+from physics.engine.forces import add, clearance, powers, put
 from physics.engine.robust.collide import strike
-from physics.engine.robust.crowd import (
+from physics.engine.robust.crowd import Record
+from physics.engine.robust.manifold import GAP, NX, NY, ONE, OTHER, PAIR, PN, PT, PX, PY, TARGET
+from physics.engine.robust.memory import (
     ACTIVE,
     CONTACTS,
     DONE,
@@ -28,22 +32,51 @@ from physics.engine.robust.crowd import (
     IMPULSE,
     LAST,
     LEAST,
+    MEMORY,
     MOST,
     NEEDS,
     PRESSED,
     RECORDS,
     STILL,
     STOPPED,
-    Crowd,
-    Record,
+    acc_of,
+    asked_of,
+    bars_of,
+    before_of,
+    ends_of,
+    force_of,
+    jacobian_of,
+    ledger_of,
+    now_of,
+    pos_of,
+    power_of,
+    real_of,
+    reals_of,
+    row_of,
+    shift_of,
+    start_of,
+    tally_of,
+    total_of,
+    turns_of,
+    vel_of,
+    when_of,
+    whole_of,
 )
-from physics.engine.robust.forces import add, clearance, powers, put, value
-from physics.engine.robust.manifold import GAP, NX, NY, ONE, OTHER, PAIR, PN, PT, PX, PY, TARGET
 from physics.engine.robust.near import find
-from physics.engine.robust.rows import CORD, GIVEN, POINT
 from physics.engine.robust.soft import bring_up, haul, opening, press, push_apart, rate_of, settle
 from physics.engine.robust.watch import release, watch_contacts, watch_rest, watch_supports, watch_wires
-from physics.engine.world import World
+from physics.engine.rows import CORD, GIVEN, POINT
+from physics.engine.tables import (
+    WORLD,
+    course_of,
+    gravity,
+    inverses,
+    masses,
+    pair_of,
+    reaches,
+    support_of,
+    value,
+)
 from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
@@ -66,28 +99,36 @@ ASLEEP = 60
 
 
 @part
-def _ask(world: World, crowd: Crowd, movable: int, t: float, h: float) -> bool:
+def _ask(w: Any, m: Any, movable: int, t: float, h: float) -> bool:
     """Has the student's programs tell the sizes of given normal forces, and the velocities that take bodies
     under an equation where it says. False if one has no value (`STOPPED`: which)."""
-    vel, pos, now, asked = crowd.vel, crowd.pos, crowd.now, crowd.asked
+    vel, pos, now, asked, force, start = (
+        vel_of(m),
+        pos_of(m),
+        now_of(m),
+        asked_of(m),
+        force_of(m),
+        start_of(m),
+    )
     stopped = -1
-    supports = len(world.supports)
+    supports = w.supports
     for k in range(supports):
-        if world.supports[k].over == 1:
-            asked[k] = value(world, world.supports[k].force, t, pos, now)
-    for k in range(len(world.courses)):
-        course = world.courses[k]
+        support = support_of(w, k)
+        if support.over == 1:
+            asked[k] = value(w, support.force, t, pos, now)
+    for k in range(w.courses):
+        course = course_of(w, k)
         if course.on == 0:
             continue
         i, a = course.body, course.axis
         here = pos[i, a]
         if course.position >= 0:
-            there = value(world, course.position, t + h, pos, now)
+            there = value(w, course.position, t + h, pos, now)
             vel[i, a] = (there - here) / h
         else:
             # Read in the middle of the substep, by a first guess of the way there.
-            pos[i, a] = here + 0.5 * h * value(world, course.velocity, t, pos, now)
-            vel[i, a] = value(world, course.velocity, t + 0.5 * h, pos, now)
+            pos[i, a] = here + 0.5 * h * value(w, course.velocity, t, pos, now)
+            vel[i, a] = value(w, course.velocity, t + 0.5 * h, pos, now)
             pos[i, a] = here
             there = here + h * vel[i, a]
         asked[supports + k] = there
@@ -95,25 +136,25 @@ def _ask(world: World, crowd: Crowd, movable: int, t: float, h: float) -> bool:
             stopped = course.position if course.position >= 0 else course.velocity
     total = 0.0
     for i in range(movable):
-        total += crowd.force[i, 0] + crowd.force[i, 1] + crowd.force[i, 2]
+        total += force[i, 0] + force[i, 1] + force[i, 2]
     if np.isfinite(total) and stopped < 0:
         return True
-    for program in range(len(world.spans)):
-        if stopped < 0 and not np.isfinite(value(world, program, t, pos, now)):
+    for program in range(w.programs):
+        if stopped < 0 and not np.isfinite(value(w, program, t, pos, now)):
             stopped = program
     for i in range(len(vel)):
         for q in range(3):
-            vel[i, q] = crowd.start[i, q]
-    crowd.tally[STOPPED] = max(stopped, 0)
+            vel[i, q] = start[i, q]
+    tally_of(m)[STOPPED] = max(stopped, 0)
     return False
 
 
 @part
-def _begin(world: World, crowd: Crowd, lag: float) -> None:
+def _begin(w: Any, m: Any, lag: float) -> None:
     """Velocities at the time of the poses, as far as they are known before the kick: accelerations are taken to be
     those of the last one, but where a landing made them."""
-    pos, vel, acc, now, start = crowd.pos, crowd.vel, crowd.acc, crowd.now, crowd.start
-    turns, when, force, inverse, reach = crowd.turns, crowd.when, crowd.force, world.inverse, world.reach
+    pos, vel, acc, now, start = pos_of(m), vel_of(m), acc_of(m), now_of(m), start_of(m)
+    turns, when, force, inverse, reach = turns_of(m), when_of(m), force_of(m), inverses(w), reaches(w)
     for i in range(len(pos)):
         most = LANDING * (abs(force[i, 0]) * inverse[i, 0] + abs(force[i, 1]) * inverse[i, 1])
         if abs(acc[i, 0]) + abs(acc[i, 1]) > most:
@@ -128,10 +169,10 @@ def _begin(world: World, crowd: Crowd, lag: float) -> None:
 
 
 @part
-def _sync(world: World, crowd: Crowd, lag: float, kick: float) -> None:
+def _sync(w: Any, m: Any, lag: float, kick: float) -> None:
     """Accelerations by the kick, and velocities at its time."""
-    vel, acc, now, start, before = crowd.vel, crowd.acc, crowd.now, crowd.start, crowd.before
-    inverse = world.inverse
+    vel, acc, now, start, before = vel_of(m), acc_of(m), now_of(m), start_of(m), before_of(m)
+    inverse = inverses(w)
     for i in range(len(vel)):
         for q in range(3):
             free = inverse[i, q] > 0.0
@@ -142,74 +183,83 @@ def _sync(world: World, crowd: Crowd, lag: float, kick: float) -> None:
 
 
 @part
-def _drift(world: World, crowd: Crowd, movable: int, h: float, struck: bool) -> None:
+def _drift(w: Any, m: Any, movable: int, h: float, struck: bool) -> None:
     """Poses after h seconds, overlap let out, and whether anything moved (`STILL`)."""
-    vel, acc, pos, shift = crowd.vel, crowd.acc, crowd.pos, crowd.shift
+    vel, acc, pos, shift, asked, tally = (
+        vel_of(m),
+        acc_of(m),
+        pos_of(m),
+        shift_of(m),
+        asked_of(m),
+        tally_of(m),
+    )
     quiet = not struck
     for i in range(movable):
         for q in range(3):
             quiet = quiet and abs(vel[i, q]) <= QUIET and abs(h * acc[i, q]) <= QUIET
             pos[i, q] += h * vel[i, q] + shift[i, q]
             shift[i, q] = 0.0
-    for k in range(len(world.courses)):
-        course = world.courses[k]
+    for k in range(w.courses):
+        course = course_of(w, k)
         if course.on == 1:
-            pos[course.body, course.axis] = crowd.asked[len(world.supports) + k]
-    gx, gy = world.gravity[0], world.gravity[1]
-    level, mass = 0.0, world.mass
+            pos[course.body, course.axis] = asked[w.supports + k]
+    gx, gy = gravity(w)[0], gravity(w)[1]
+    level, mass = 0.0, masses(w)
     for i in range(movable):
         level -= mass[i, 0] * (gx * pos[i, 0] + gy * pos[i, 1])
-    if push_apart(world, crowd, h):
+    if push_apart(w, m, h):
         quiet = False
         for i in range(movable):
             level += mass[i, 0] * (gx * pos[i, 0] + gy * pos[i, 1])
         # What a push lifts had fallen too far: that much less was turned into heat.
-        crowd.ledger[0] += level
-    crowd.tally[STILL] = crowd.tally[STILL] + 1 if quiet else 0
+        ledger_of(m)[0] += level
+    tally[STILL] = tally[STILL] + 1 if quiet else 0
 
 
 @part
-def _goals(world: World, crowd: Crowd, h: float, kick: float, struck: bool) -> None:
+def _goals(w: Any, m: Any, h: float, kick: float, struck: bool) -> None:
     """The rate that each contact and row must have after the kick, and their impulses of the last one."""
-    real, bars = crowd.real, crowd.bars
-    last = crowd.reals[LAST]
+    jacobian, ends, pos, now, asked = jacobian_of(m), ends_of(m), pos_of(m), now_of(m), asked_of(m)
+    real, bars = real_of(m), bars_of(m)
+    last = reals_of(m)[LAST]
     warm = kick / last if last > 0.0 else 0.0
-    vel, before, whole, shift = crowd.vel, crowd.before, crowd.whole, crowd.shift
+    vel, before, whole, shift = vel_of(m), before_of(m), whole_of(m), shift_of(m)
     for i in range(len(vel)):
         for q in range(3):
             before[i, q] = vel[i, q]
-    for k in range(crowd.tally[CONTACTS]):
+    for k in range(tally_of(m)[CONTACTS]):
         gap = max(real[GAP, k], 0.0)
         if struck:
             gap += opening(real, whole, k, shift)
         real[TARGET, k] = -gap / h
         real[PN, k] *= warm
         real[PT, k] *= warm
-    for k in range(len(crowd.rows)):
-        row = crowd.rows[k]
+    for k in range(m.rows):
+        row = row_of(m, k)
         bars[k, IMPULSE] *= warm
         if row.kind == GIVEN or row.kind == POINT:
-            support: Any = world.supports[row.source]
-            gap = clearance(world, row.source, crowd.pos, crowd.now)[0]
+            support = support_of(w, row.source)
+            gap = clearance(w, row.source, pos, now)[0]
             most = 0.0
             if support.over == 1 and row.mu > 0.0 and abs(gap) < support.skin:
-                most = kick * row.mu * max(crowd.asked[row.source], 0.0)
+                most = kick * row.mu * max(asked[row.source], 0.0)
             bars[k, ACTIVE], bars[k, GOAL], bars[k, LEAST], bars[k, MOST] = 1.0, 0.0, -most, most
             bars[k, IMPULSE] = min(max(bars[k, IMPULSE], -most), most)
             continue
         off = row.gap + 0.5 * h * h * row.c
         if struck:
-            off += rate_of(crowd.jacobian, crowd.ends, k, crowd.shift)
+            off += rate_of(jacobian, ends, k, shift)
         if off < 0.0 or row.kind != CORD:
             off = min(max(off, -CREEP), CREEP)
         bars[k, GOAL] = -off / h
 
 
 @part
-def _kick(world: World, crowd: Crowd, movable: int, kick: float) -> float:
+def _kick(w: Any, m: Any, movable: int, kick: float) -> float:
     """Velocities after the kick; the heat that its constraints make, J."""
-    vel, real, whole, bars, inverse = crowd.vel, crowd.real, crowd.whole, crowd.bars, world.inverse
-    contacts, force, before, mass = crowd.tally[CONTACTS], crowd.force, crowd.before, world.mass
+    jacobian, ends = jacobian_of(m), ends_of(m)
+    vel, real, whole, bars, inverse = vel_of(m), real_of(m), whole_of(m), bars_of(m), inverses(w)
+    contacts, force, before, mass = tally_of(m)[CONTACTS], force_of(m), before_of(m), masses(w)
     for i in range(movable):
         for q in range(3):
             vel[i, q] += kick * inverse[i, q] * force[i, q]
@@ -220,8 +270,8 @@ def _kick(world: World, crowd: Crowd, movable: int, kick: float) -> float:
         if bars[k, ACTIVE] == 0.0:
             bars[k, IMPULSE] = 0.0
         elif bars[k, IMPULSE] != 0.0:
-            haul(crowd.jacobian, crowd.ends, inverse, k, bars[k, IMPULSE], vel)
-    settle(real, whole, bars, crowd.jacobian, crowd.ends, inverse, contacts, vel, ROUNDS, CLOSE)
+            haul(jacobian, ends, inverse, k, bars[k, IMPULSE], vel)
+    settle(real, whole, bars, jacobian, ends, inverse, contacts, vel, ROUNDS, CLOSE)
     heat = 0.0
     for i in range(movable):
         for q in range(3):
@@ -232,40 +282,41 @@ def _kick(world: World, crowd: Crowd, movable: int, kick: float) -> float:
 
 
 @part
-def _sum_up(crowd: Crowd, kick: float) -> None:
+def _sum_up(m: Any, kick: float) -> None:
     """All forces on each body, those of contacts and rows too."""
-    real, whole, total = crowd.real, crowd.whole, crowd.total
+    force, jacobian, bars = force_of(m), jacobian_of(m), bars_of(m)
+    real, whole, total = real_of(m), whole_of(m), total_of(m)
     for i in range(len(total)):
         for q in range(3):
-            total[i, q] = crowd.force[i, q]
-    for k in range(crowd.tally[CONTACTS]):
+            total[i, q] = force[i, q]
+    for k in range(tally_of(m)[CONTACTS]):
         normal, along = real[PN, k] / kick, real[PT, k] / kick
         x, y = real[NX, k] * normal - real[NY, k] * along, real[NY, k] * normal + real[NX, k] * along
         put(total, whole[ONE, k], -x, -y, 0.0, 0.0)
         put(total, whole[OTHER, k], x, y, 0.0, 0.0)
-    for k in range(len(crowd.rows)):
-        row = crowd.rows[k]
+    for k in range(m.rows):
+        row = row_of(m, k)
         for q in range(3):
-            total[row.i, q] += crowd.jacobian[k, q] * crowd.bars[k, IMPULSE] / kick
-            total[row.j, q] += crowd.jacobian[k, 3 + q] * crowd.bars[k, IMPULSE] / kick
+            total[row.i, q] += jacobian[k, q] * bars[k, IMPULSE] / kick
+            total[row.j, q] += jacobian[k, 3 + q] * bars[k, IMPULSE] / kick
 
 
 @part
-def _keep(world: World, crowd: Crowd, record: Record, kick: float) -> None:
-    tally, bars, rows = crowd.tally, crowd.bars, len(crowd.rows)
+def _keep(w: Any, m: Any, record: Record, kick: float) -> None:
+    tally, bars, ledger, rows = tally_of(m), bars_of(m), ledger_of(m), m.rows
     at = tally[RECORDS]
-    _copy(crowd.pos, record.pos, at)
-    _copy(crowd.now, record.vel, at)
-    _copy(crowd.acc, record.acc, at)
-    for k in range(len(crowd.ledger)):
-        record.ledger[at, k] = crowd.ledger[k]
+    _copy(pos_of(m), record.pos, at)
+    _copy(now_of(m), record.vel, at)
+    _copy(acc_of(m), record.acc, at)
+    for k in range(m.entries):
+        record.ledger[at, k] = ledger[k]
     for k in range(rows):
         record.pulls[at, k] = bars[k, IMPULSE] / kick
     tally[PRESSED] = _press_on(
-        crowd.real,
-        crowd.whole,
+        w,
+        real_of(m),
+        whole_of(m),
         tally[CONTACTS],
-        world.pairs,
         record.pairs,
         record.forces,
         tally[PRESSED],
@@ -284,10 +335,10 @@ def _copy(now: FloatArray, kept: FloatArray, at: int) -> None:
 
 @part
 def _press_on(
+    w: Any,
     real: FloatArray,
     whole: IntArray,
     contacts: int,
-    pairs: Any,
     numbers: NDArray[np.int32],
     forces: FloatArray,
     pressed: int,
@@ -308,7 +359,7 @@ def _press_on(
                 forces[pressed, q] = 0.0
             pressed += 1
         at = pressed - 1
-        sign = (1.0 if whole[OTHER, k] == pairs[pair].j else -1.0) / kick
+        sign = (1.0 if whole[OTHER, k] == pair_of(w, pair).j else -1.0) / kick
         forces[at, 0] += sign * real[NX, k] * normal
         forces[at, 1] += sign * real[NY, k] * normal
         forces[at, 2] -= sign * real[NY, k] * along
@@ -321,10 +372,9 @@ def _press_on(
 
 @kernel
 def run(
-    world: World,
-    crowd: Crowd,
+    cells: FloatArray,
+    memory: FloatArray,
     record: Record,
-    movable: int,
     begin: float,
     h: float,
     each: int,
@@ -339,48 +389,51 @@ def run(
     begin: when the first one was, s; h: their length, s; each: substeps from record to record; frame: from
     frame to frame; room: see `sweep`.
     """
-    tally, ledger, power = crowd.tally, crowd.ledger, crowd.power
+    w, m = head(cells, WORLD), head(memory, MEMORY)
+    movable = w.movable
+    tally, ledger, power = tally_of(m), ledger_of(m), power_of(m)
+    pos, now, acc, force, total = pos_of(m), now_of(m), acc_of(m), force_of(m), total_of(m)
     tally[NEEDS] = 0
-    many = 2 * len(crowd.near) + 2 * len(world.links) + 2 * len(world.supports) + len(world.courses) + movable
+    many = 2 * m.near + 2 * w.links + 2 * w.supports + w.courses + movable
     while tally[DONE] < until:
         done = tally[DONE]
-        full = tally[RECORDS] >= len(record.pos) or tally[PRESSED] + len(crowd.near) > len(record.forces)
-        if full or tally[EVENTS] + many > len(crowd.events):
+        full = tally[RECORDS] >= len(record.pos) or tally[PRESSED] + m.near > len(record.forces)
+        if full or tally[EVENTS] + many > m.events:
             return
         t = begin + done * h
         kick, lag = (h, 0.5 * h) if done > 0 else (0.5 * h, 0.0)
-        _begin(world, crowd, lag)
-        if not find(world, crowd, movable, h, room):
+        _begin(w, m, lag)
+        if not find(w, m, movable, h, room):
             return
-        add(world, t, crowd.pos, crowd.now, crowd.force)
-        if not _ask(world, crowd, movable, t, h):
+        add(w, t, pos, now, force)
+        if not _ask(w, m, movable, t, h):
             return
-        bring_up(world, crowd)
-        if len(world.courses) > 0:
-            release(world, crowd, t, h, lag)
-        watch_supports(world, crowd, t)
-        loss = strike(world, crowd, h, lag)
+        bring_up(w, m)
+        if w.courses > 0:
+            release(w, m, t, h, lag)
+        watch_supports(w, m, t)
+        loss = strike(w, m, h, lag)
         struck = loss >= 0.0
-        watch_contacts(crowd, t, struck)
-        _goals(world, crowd, h, kick, struck)
-        heat = _kick(world, crowd, movable, kick)
-        _sync(world, crowd, lag, kick)
-        if len(world.courses) > 0:
-            _sum_up(crowd, kick)
+        watch_contacts(m, t, struck)
+        _goals(w, m, h, kick, struck)
+        heat = _kick(w, m, movable, kick)
+        _sync(w, m, lag, kick)
+        if w.courses > 0:
+            _sum_up(m, kick)
         # Heat and work of the kick, half of it before the time t.
-        powers(world, t, crowd.pos, crowd.now, crowd.acc, crowd.total, heat / kick, power)
+        powers(w, t, pos, now, acc, total, heat / kick, power)
         for k in range(len(ledger)):
             ledger[k] += lag * power[k]
         if done % each == 0:
-            _keep(world, crowd, record, kick)
+            _keep(w, m, record, kick)
         for k in range(len(ledger)):
             ledger[k] += 0.5 * h * power[k]
         ledger[0] += max(loss, 0.0)
-        _drift(world, crowd, movable, h, struck)
-        watch_wires(world, crowd, t, kick, h)
-        crowd.reals[LAST] = kick
+        _drift(w, m, movable, h, struck)
+        watch_wires(w, m, t, kick, h)
+        reals_of(m)[LAST] = kick
         tally[DONE] += 1
         if done % frame == 0:
-            watch_rest(world, crowd, t, movable)
+            watch_rest(w, m, t, movable)
             if sleepy and tally[STILL] >= ASLEEP:
                 return

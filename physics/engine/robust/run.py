@@ -13,26 +13,14 @@ from typing import Any
 import numpy as np
 
 from physics.engine.acts import Act, applied
+from physics.engine.forces import ledger_size
 from physics.engine.robust.broad import ROOM
-from physics.engine.robust.crowd import (
-    DONE,
-    EVENTS,
-    FORCE,
-    NEEDS,
-    PRESSED,
-    RECORDS,
-    STILL,
-    STOPPED,
-    Record,
-    contact_room,
-    crowd_of,
-    near_room,
-)
-from physics.engine.robust.forces import ledger_size
+from physics.engine.robust.crowd import Record, contact_room, crowd_of, gathered, near_room
+from physics.engine.robust.memory import DONE, EVENTS, FORCE, NEEDS, PRESSED, RECORDS, STILL, STOPPED
 from physics.engine.robust.pace import ASLEEP, run
 from physics.engine.robust.shown import contact_acts, joint_acts
 from physics.engine.robust.told import told, whose
-from physics.engine.world import SPRING, Names, World
+from physics.engine.world import SPRING, Names, World, copied
 from physics.trajectory import Event
 from sketch.ink import FloatArray
 
@@ -61,14 +49,7 @@ class RobustRun:
         ledger: FloatArray | None = None,
         sleep: bool = True,
     ) -> None:
-        self.world = world._replace(
-            inverse=world.inverse.copy(),
-            links=world.links.copy(),
-            supports=world.supports.copy(),
-            courses=world.courses.copy(),
-            stack=world.stack.copy(),
-        )
-        self.given = world._replace(links=world.links.copy(), supports=world.supports.copy())
+        self.world, self.given = copied(world, names.movable), copied(world, names.movable)
         self.names, self.start = names, time
         entries = ledger_size(world)
         self.crowd = crowd_of(self.world, names, pos, vel, np.zeros(entries) if ledger is None else ledger)
@@ -181,10 +162,9 @@ class RobustRun:
         while int(crowd.tally[DONE]) < until and not self.stopped:
             self._make_room(until)
             run(
-                self.world,
-                self.crowd,
+                self.world.cells,
+                self.crowd.cells,
                 self.record,
-                self.names.movable,
                 self.start,
                 self.pitch / self.each,
                 self.each,
@@ -217,7 +197,8 @@ class RobustRun:
         noisy += len(self.world.courses) + len(self.names.bodies)
         if len(crowd.events) < 2 * noisy:
             crowd = crowd._replace(events=np.zeros((4 * noisy, crowd.events.shape[1])))
-        self.crowd = crowd
+        if crowd is not self.crowd:
+            self.crowd = gathered(crowd[:-1])
         wanted = max((until - 1) // self.each + 2, int(1.5 * self._records()))
         if self._records() >= len(record.pos) - 1:
             grown = max(wanted, len(record.pos))

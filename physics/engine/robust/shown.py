@@ -8,9 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.engine.acts import Act, link_ends
+from physics.engine.cells import head
+from physics.engine.forces import ends_of
 from physics.engine.robust.crowd import Record
-from physics.engine.robust.forces import ends_of
-from physics.engine.robust.rows import CORD, PIN_X, PIN_Y
+from physics.engine.rows import CORD, PIN_X, PIN_Y
+from physics.engine.tables import WORLD
 from physics.engine.world import Names, Table, World
 from physics.jit import kernel
 from sketch.ink import FloatArray
@@ -28,7 +30,7 @@ def joint_acts(world: World, names: Names, rows: Table, pulls: FloatArray, pos: 
         return acts
     ends = link_ends(world, pos)
     ways = np.zeros((len(pos), len(world.links), 4))
-    _ways(world, pos, ways)
+    _ways(world.cells, pos, ways)
     for k in range(len(rows)):
         row: Any = rows[k]
         number, size = int(row["source"]), pulls[:, k, None]
@@ -112,10 +114,11 @@ def _settled(world: World, names: Names, pairs: NDArray[np.int32], frames: IntAr
 
 
 @kernel
-def _ways(world: World, pos: FloatArray, ways: FloatArray) -> None:
+def _ways(cells: FloatArray, pos: FloatArray, ways: FloatArray) -> None:
     """Unit vectors along which a link pulls its ends."""
+    w = head(cells, WORLD)
     for frame in range(len(pos)):
-        for k in range(len(world.links)):
-            _, _, _, _, ux, uy, wx, wy, _ = ends_of(world, k, pos[frame])
+        for k in range(w.links):
+            _, _, _, _, ux, uy, wx, wy, _ = ends_of(w, k, pos[frame])
             ways[frame, k, 0], ways[frame, k, 1] = ux, uy
             ways[frame, k, 2], ways[frame, k, 3] = wx, wy

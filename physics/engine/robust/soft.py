@@ -14,18 +14,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.engine.robust.crowd import (
-    ACTIVE,
-    CONTACTS,
-    GOAL,
-    HEFT,
-    IMPULSE,
-    LEAST,
-    MOST,
-    OLD,
-    WAY,
-    Crowd,
-)
 from physics.engine.robust.manifold import (
     CA,
     CB,
@@ -51,8 +39,30 @@ from physics.engine.robust.manifold import (
     TB,
     renew_all,
 )
-from physics.engine.robust.rows import CORD, GIVEN, POINT, refresh
-from physics.engine.world import World
+from physics.engine.robust.memory import (
+    ACTIVE,
+    CONTACTS,
+    GOAL,
+    HEFT,
+    IMPULSE,
+    LEAST,
+    MOST,
+    OLD,
+    WAY,
+    bars_of,
+    ends_of,
+    jacobian_of,
+    now_of,
+    pos_of,
+    real_of,
+    row_of,
+    shift_of,
+    tally_of,
+    turns_of,
+    whole_of,
+)
+from physics.engine.rows import CORD, GIVEN, POINT, refresh
+from physics.engine.tables import inverses, link_of, support_of
 from physics.jit import part
 from sketch.ink import FloatArray
 
@@ -72,27 +82,28 @@ PUSHES = 4
 
 
 @part
-def bring_up(world: World, crowd: Crowd) -> None:
+def bring_up(w: Any, m: Any) -> None:
     """Contacts and rows at the poses of now."""
-    renew_all(crowd.tally[CONTACTS], crowd.pos, crowd.turns, world.inverse, crowd.real, crowd.whole)
-    for k in range(len(crowd.rows)):
-        row = crowd.rows[k]
-        refresh(row, world, crowd.pos, crowd.now)
+    jacobian, bars, inverse, pos, now = jacobian_of(m), bars_of(m), inverses(w), pos_of(m), now_of(m)
+    renew_all(tally_of(m)[CONTACTS], pos, turns_of(m), inverse, real_of(m), whole_of(m))
+    for k in range(m.rows):
+        row = row_of(m, k)
+        refresh(row, pos, now)
         light = 0.0
         rubs = row.kind == GIVEN or row.kind == POINT
         for q in range(6):
-            crowd.jacobian[k, q] = row.T[q] if rubs else row.J[q]
-            light += crowd.jacobian[k, q] ** 2 * world.inverse[row.i if q < 3 else row.j, q % 3]
-        crowd.bars[k, HEFT] = 1.0 / light if light > 0.0 else 0.0
+            jacobian[k, q] = row.T[q] if rubs else row.J[q]
+            light += jacobian[k, q] ** 2 * inverse[row.i if q < 3 else row.j, q % 3]
+        bars[k, HEFT] = 1.0 / light if light > 0.0 else 0.0
         if rubs:
-            support: Any = world.supports[row.source]
+            support = support_of(w, row.source)
             active = support.over == 1 and row.mu > 0.0
         else:
-            link: Any = world.links[row.source]
+            link = link_of(w, row.source)
             active = link.broken == 0
-            crowd.bars[k, LEAST] = 0.0 if row.kind == CORD else -np.inf
-            crowd.bars[k, MOST] = np.inf
-        crowd.bars[k, ACTIVE] = 1.0 if active else 0.0
+            bars[k, LEAST] = 0.0 if row.kind == CORD else -np.inf
+            bars[k, MOST] = np.inf
+        bars[k, ACTIVE] = 1.0 if active else 0.0
 
 
 @part
@@ -280,15 +291,15 @@ def settle(
 
 
 @part
-def push_apart(world: World, crowd: Crowd, h: float) -> bool:
+def push_apart(w: Any, m: Any, h: float) -> bool:
     """Moves bodies so that overlap grows less; whether there was any. Rows and other contacts yield nothing."""
-    real, whole, contacts, inverse = crowd.real, crowd.whole, crowd.tally[CONTACTS], world.inverse
+    real, whole, contacts, inverse = real_of(m), whole_of(m), tally_of(m)[CONTACTS], inverses(w)
     deepest = 0.0
     for k in range(contacts):
         deepest = max(deepest, -real[GAP, k])
     if deepest <= SLOP:
         return False
-    shift, bars, pos = crowd.shift, crowd.bars, crowd.pos
+    shift, bars, pos, jacobian, ends = shift_of(m), bars_of(m), pos_of(m), jacobian_of(m), ends_of(m)
     for i in range(len(shift)):
         shift[i, 0], shift[i, 1], shift[i, 2] = 0.0, 0.0, 0.0
     for k in range(contacts):
@@ -306,11 +317,11 @@ def push_apart(world: World, crowd: Crowd, h: float) -> bool:
             if more != 0.0:
                 real[LIFT, k] += more
                 press(real, whole, inverse, k, more, 0.0, shift)
-        for k in range(len(crowd.rows)):
+        for k in range(m.rows):
             if bars[k, ACTIVE] == 1.0 and bars[k, MOST] == np.inf:
-                away = rate_of(crowd.jacobian, crowd.ends, k, shift)
-                if bars[k, LEAST] < 0.0 or away < -max(crowd.rows[k].gap, 0.0):
-                    haul(crowd.jacobian, crowd.ends, inverse, k, -away * bars[k, HEFT], shift)
+                away = rate_of(jacobian, ends, k, shift)
+                if bars[k, LEAST] < 0.0 or away < -max(row_of(m, k).gap, 0.0):
+                    haul(jacobian, ends, inverse, k, -away * bars[k, HEFT], shift)
     for i in range(len(shift)):
         for q in range(3):
             if inverse[i, q] > 0.0:

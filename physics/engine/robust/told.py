@@ -61,8 +61,7 @@ def whose(world: World, names: Names, program: int) -> tuple[str, str]:
             return name, names.bodies[row["body"]]
     for name, row in zip(names.links, world.links, strict=True):
         if row["kind"] == WIRE and row["tension"] == program:
-            body = row["i"] if row["i"] < names.movable else row["j"]
-            return f"T of {name}", names.bodies[body]
+            return f"T of {name}", names.bodies[row["reader"]]
     raise ValueError(f"program {program} belongs to nothing")
 
 

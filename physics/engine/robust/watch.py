@@ -5,20 +5,39 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from physics.engine.forces import clearance, ends_of, normal_of
 from physics.engine.robust.collide import FAST, approach
-from physics.engine.robust.crowd import ACTIVE, BUCKLED, CONTACTS, DONE, EVENTS, GIVES, IMPULSE, PAIRS, Crowd
-from physics.engine.robust.forces import clearance, ends_of, normal_of
 from physics.engine.robust.manifold import GAP, HIT, ONE, OTHER, PAIR, TAU, renew
-from physics.engine.robust.rows import CORD
+from physics.engine.robust.memory import (
+    ACTIVE,
+    BUCKLED,
+    CONTACTS,
+    DONE,
+    EVENTS,
+    GIVES,
+    IMPULSE,
+    PAIRS,
+    acc_of,
+    bars_of,
+    events_of,
+    motion_of,
+    near_of,
+    now_of,
+    pos_of,
+    real_of,
+    row_of,
+    seen_of,
+    tally_of,
+    touching_of,
+    turns_of,
+    vel_of,
+    whole_of,
+)
 from physics.engine.robust.soft import opening
-from physics.engine.world import WIRE, World
+from physics.engine.rows import CORD
+from physics.engine.tables import course_of, inverses, link_of, masses, reaches, support_of
+from physics.engine.world import WIRE
 from physics.jit import part
-from sketch.ink import FloatArray
-
-IntArray = NDArray[np.int64]
 
 IMPACT, BREAK, SLACK, TAUT, BOUNCE, LIFT, RELEASED, REST, STRETCHED = (
     0.0,
@@ -47,110 +66,111 @@ SMOOTHING = 0.8
 
 
 @part
-def note(tally: IntArray, events: FloatArray, time: float, kind: float, number: int, value: float) -> None:
+def note(m: Any, time: float, kind: float, number: int, value: float) -> None:
     """One event more; the caller has seen to it that there is room."""
+    tally, events = tally_of(m), events_of(m)
     at = tally[EVENTS]
     events[at, 0], events[at, 1], events[at, 2], events[at, 3] = time, kind, number, value
     tally[EVENTS] = at + 1
 
 
 @part
-def watch_contacts(crowd: Crowd, t: float, struck: bool) -> None:
+def watch_contacts(m: Any, t: float, struck: bool) -> None:
     """Notes impacts of bodies that were apart, and who touches whom."""
-    real, whole, touching, done = crowd.real, crowd.whole, crowd.touching, crowd.tally[DONE]
-    for k in range(crowd.tally[CONTACTS]):
+    real, whole, touching, done = real_of(m), whole_of(m), touching_of(m), tally_of(m)[DONE]
+    for k in range(tally_of(m)[CONTACTS]):
         pair = whole[PAIR, k]
         if struck and real[HIT, k] > 0.0 and touching[pair] < done - 1:
-            note(crowd.tally, crowd.events, t + real[TAU, k], IMPACT, pair, real[HIT, k])
+            note(m, t + real[TAU, k], IMPACT, pair, real[HIT, k])
             touching[pair] = done
         if real[GAP, k] <= TOUCH:
             touching[pair] = done
 
 
 @part
-def release(world: World, crowd: Crowd, t: float, h: float, lag: float) -> None:
+def release(w: Any, m: Any, t: float, h: float, lag: float) -> None:
     """Ends the courses of bodies that are about to collide."""
-    whole = crowd.whole
-    for k in range(crowd.tally[CONTACTS]):
-        gap = crowd.real[GAP, k]
-        rate, when = approach(
-            gap, opening(crowd.real, whole, k, crowd.vel), opening(crowd.real, whole, k, crowd.acc), lag, h
-        )
+    whole, real, pos, vel, acc, turns = whole_of(m), real_of(m), pos_of(m), vel_of(m), acc_of(m), turns_of(m)
+    inverse = inverses(w)
+    for k in range(tally_of(m)[CONTACTS]):
+        closing, pull = opening(real, whole, k, vel), opening(real, whole, k, acc)
+        rate, when = approach(real[GAP, k], closing, pull, lag, h)
         if rate >= -FAST:
             continue
-        for c in range(len(world.courses)):
-            course = world.courses[c]
+        for c in range(w.courses):
+            course = course_of(w, c)
             if course.on == 1 and (course.body == whole[ONE, k] or course.body == whole[OTHER, k]):
                 course.on = 0
-                world.inverse[course.body, course.axis] = 1.0 / world.mass[course.body, course.axis]
-                crowd.acc[course.body, course.axis] = 0.0
-                note(crowd.tally, crowd.events, t + when, RELEASED, c, 0.0)
-        renew(k, crowd.pos, crowd.turns, world.inverse, crowd.real, whole)
+                inverse[course.body, course.axis] = 1.0 / masses(w)[course.body, course.axis]
+                acc[course.body, course.axis] = 0.0
+                note(m, t + when, RELEASED, c, 0.0)
+        renew(k, pos, turns, inverse, real, whole)
 
 
 @part
-def watch_supports(world: World, crowd: Crowd, t: float) -> None:
+def watch_supports(w: Any, m: Any, t: float) -> None:
     """Strikes back what sank too deep into its support, and ends supports that were left."""
-    for k in range(len(world.supports)):
-        support = world.supports[k]
+    pos, vel, near, seen, inverse = pos_of(m), vel_of(m), near_of(m), seen_of(m), inverses(w)
+    for k in range(w.supports):
+        support = support_of(w, k)
         if support.over == 0:
             continue
-        gap, rate, along = clearance(world, k, crowd.pos, crowd.vel)
+        gap, rate, along = clearance(w, k, pos, vel)
         if support.length > 0.0 and (along < 0.0 or along > support.length):
             support.over = 0
-            for q in range(crowd.tally[PAIRS]):
-                if crowd.near[q, 0] == support.pair:
-                    crowd.seen[q, 4] = 0.0
+            for q in range(tally_of(m)[PAIRS]):
+                if near[q, 0] == support.pair:
+                    seen[q, 4] = 0.0
         elif gap < -support.skin and rate < 0.0:
             # Struck back without loss, on the centres of mass: twice what stops it.
-            nx, ny = normal_of(world, k, crowd.pos)
+            nx, ny = normal_of(w, k, pos)
             i, j = support.i, support.j
-            give = nx * nx * (world.inverse[i, 0] + world.inverse[j, 0])
-            give += ny * ny * (world.inverse[i, 1] + world.inverse[j, 1])
+            give = nx * nx * (inverse[i, 0] + inverse[j, 0])
+            give += ny * ny * (inverse[i, 1] + inverse[j, 1])
             blow = -2.0 * rate / give if give > 0.0 else 0.0
-            crowd.vel[i, 0] += world.inverse[i, 0] * blow * nx
-            crowd.vel[i, 1] += world.inverse[i, 1] * blow * ny
-            crowd.vel[j, 0] -= world.inverse[j, 0] * blow * nx
-            crowd.vel[j, 1] -= world.inverse[j, 1] * blow * ny
-            note(crowd.tally, crowd.events, t, BOUNCE, k, -rate)
+            vel[i, 0] += inverse[i, 0] * blow * nx
+            vel[i, 1] += inverse[i, 1] * blow * ny
+            vel[j, 0] -= inverse[j, 0] * blow * nx
+            vel[j, 1] -= inverse[j, 1] * blow * ny
+            note(m, t, BOUNCE, k, -rate)
         elif gap > support.skin and support.risen == 0:
             support.risen = 1
-            note(crowd.tally, crowd.events, t, LIFT, k, gap)
+            note(m, t, LIFT, k, gap)
 
 
 @part
-def watch_wires(world: World, crowd: Crowd, t: float, kick: float, h: float) -> None:
+def watch_wires(w: Any, m: Any, t: float, kick: float, h: float) -> None:
     """Breaks wires, and notes which go slack. kick: the length of the substep's kick, s."""
-    bars = crowd.bars
-    for k in range(len(crowd.rows)):
-        row = crowd.rows[k]
+    bars = bars_of(m)
+    for k in range(m.rows):
+        row = row_of(m, k)
         if row.kind != CORD or bars[k, ACTIVE] == 0.0:
             continue
-        link: Any = world.links[row.source]
+        link: Any = link_of(w, row.source)
         pull = max(bars[k, IMPULSE] / kick, bars[k, GIVES] / h)
         bars[k, GIVES] = 0.0
         if pull > link.limit:
             link.broken = 1
-            note(crowd.tally, crowd.events, t, BREAK, row.source, pull)
+            note(m, t, BREAK, row.source, pull)
         elif row.gap > LOOSE and bars[k, BUCKLED] == 0.0:
             bars[k, BUCKLED] = 1.0
-            note(crowd.tally, crowd.events, t, SLACK, row.source, row.gap)
+            note(m, t, SLACK, row.source, row.gap)
         elif bars[k, BUCKLED] == 1.0 and row.gap <= 0.0:
             bars[k, BUCKLED] = 0.0
-            note(crowd.tally, crowd.events, t, TAUT, row.source, 0.0)
-    for k in range(len(world.links)):
-        link = world.links[k]
+            note(m, t, TAUT, row.source, 0.0)
+    for k in range(w.links):
+        link = link_of(w, k)
         if link.kind == WIRE and link.tension >= 0 and link.broken == 0:
-            length = ends_of(world, k, crowd.pos)[8]
+            length = ends_of(w, k, pos_of(m))[8]
             if abs(length - link.rest) > link.tolerance:
                 link.broken = 1
-                note(crowd.tally, crowd.events, t, STRETCHED, k, length - link.rest)
+                note(m, t, STRETCHED, k, length - link.rest)
 
 
 @part
-def watch_rest(world: World, crowd: Crowd, t: float, movable: int) -> None:
+def watch_rest(w: Any, m: Any, t: float, movable: int) -> None:
     """Notes who comes to rest; once a frame."""
-    motion, now, acc, reach = crowd.motion, crowd.now, crowd.acc, world.reach
+    motion, now, acc, reach = motion_of(m), now_of(m), acc_of(m), reaches(w)
     for i in range(movable):
         was = motion[i]
         frame = now[i, 0] ** 2 + now[i, 1] ** 2 + now[i, 2] ** 2
@@ -160,4 +180,4 @@ def watch_rest(world: World, crowd: Crowd, t: float, movable: int) -> None:
             net = max(net, CALM)
         motion[i] = net
         if net < CALM <= was:
-            note(crowd.tally, crowd.events, t, REST, i, 0.0)
+            note(m, t, REST, i, 0.0)
