@@ -46,7 +46,7 @@ def print_closeness(
     _table("Jitter of a pile after 5 s, m/s or rad/s", shaking, dict.fromkeys(piles, TARGETS.jitter))
     cpu: dict[str, dict[str, float | None]] = {c.name: {n: rows[c.name][n].cpu for n in names} for c in cases}
     _table("CPU time, ms a simulated second, each at its usual setting", cpu, {})
-    if INKLINED in names:
+    if INKLINED in names and len(names) > 1:
         shares = {
             name: {n: _over(row[n], row[INKLINED]) for n in names if n != INKLINED}
             for name, row in cpu.items()
