@@ -3,22 +3,27 @@
 To hand a compiled function a dozen arrays costs more than most of them compute: each is copied word by
 word, and counted. So a cluster's tables lie behind one another in one array of 8-byte cells, headed by
 a record that says how many there are of each and where they begin (in bytes). Inside kernels `head`
-gives that record, which is a bare pointer; `record`, `line`, `grid`, `integers` and `integer_grid` give what lies
-at an offset from it. They own nothing: the array must outlive the call. Python sees the same memory through
-ordinary numpy views (`Layout.view`).
+gives that record, which is a bare pointer; the accessors that a `Layout` makes, `line` and `integers`
+give what lies behind it. They own nothing: the array must outlive the call. Python sees the same
+memory through ordinary numpy views (`Layout.view`).
 """
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, cast
 
 import numpy as np
+from numba import from_dtype
 from numba.core import cgutils, types
 from numba.extending import intrinsic
 from numba.np import arrayobj
 from numpy.typing import NDArray
 
 from sketch.ink import FloatArray
+
+CELL = 8
+"""Bytes."""
 
 
 class Layout:
@@ -59,98 +64,138 @@ class Layout:
         start = int(self.head_of(cells)[f"{name}_at"]) // 8
         return cells[start : start + like.nbytes // 8].view(like.dtype).reshape(like.shape)
 
+    def numbers(self, name: str, *shape: int | str) -> Callable[[Any], FloatArray]:
+        """For kernels: from the head, the block of float64 of that name.
 
-def _pointer(context: Any, builder: Any, kind: Any, value: Any, offset: Any) -> Any:
-    """Address of a byte offset from a record."""
-    base = builder.bitcast(value, cgutils.voidptr_t)
+        shape: one or two sizes, or the names of counts."""
+        return self._block(name, types.float64, shape)
+
+    def integers(self, name: str, *shape: int | str) -> Callable[[Any], Any]:
+        """The same for a block of int64."""
+        return self._block(name, types.int64, shape)
+
+    def lines(self, name: str, *shape: int | str) -> Callable[[Any, int], FloatArray]:
+        """For kernels: from the head and k, part k of the block of float64 of that name, flat.
+
+        shape: of one part."""
+        begin, sizes = self._at(f"{name}_at"), self._sizes(shape)
+        kind = types.Array(types.float64, 1, "C")
+
+        def part(_typing: Any, start: Any, _k: Any) -> Any:
+            def code(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+                length = _number(context, CELL)
+                lengths = _lengths(context, builder, args[0], sizes)
+                for size in lengths:
+                    length = builder.mul(length, size)
+                offset = builder.add(_said(context, builder, args[0], begin), builder.mul(args[1], length))
+                flat = builder.udiv(length, _number(context, CELL))
+                return _array(context, builder, kind, _place(builder, args[0], offset), [flat])
+
+            return kind(start, types.int64), code
+
+        return _compiled(part)
+
+    def records(self, name: str, dtype: np.dtype[Any]) -> Callable[[Any, int], Any]:
+        """For kernels: from the head and k, record k of the block of that name."""
+        begin, kind = self._at(f"{name}_at"), from_dtype(dtype)
+
+        def record(_typing: Any, start: Any, _k: Any) -> Any:
+            def code(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+                skipped = builder.mul(args[1], _number(context, dtype.itemsize))
+                offset = builder.add(_said(context, builder, args[0], begin), skipped)
+                return builder.bitcast(_place(builder, args[0], offset), context.get_value_type(kind))
+
+            return kind(start, types.int64), code
+
+        return _compiled(record)
+
+    def _block(self, name: str, dtype: Any, shape: tuple[int | str, ...]) -> Callable[[Any], Any]:
+        begin, sizes = self._at(f"{name}_at"), self._sizes(shape)
+        kind = types.Array(dtype, len(shape), "C")
+
+        def block(_typing: Any, start: Any) -> Any:
+            def code(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+                place = _place(builder, args[0], _said(context, builder, args[0], begin))
+                return _array(context, builder, kind, place, _lengths(context, builder, args[0], sizes))
+
+            return kind(start), code
+
+        return _compiled(block)
+
+    def _at(self, name: str) -> int:
+        """At which byte of the head a number stands."""
+        return next(at for field, (_, at, *_) in (self.head.fields or {}).items() if field == name)
+
+    def _sizes(self, shape: tuple[int | str, ...]) -> list[tuple[bool, int]]:
+        """Of each size, whether it is known, and it or where the head says it."""
+        return [(True, n) if isinstance(n, int) else (False, self._at(n)) for n in shape]
+
+
+def _number(context: Any, value: int) -> Any:
+    return context.get_constant(types.intp, value)
+
+
+def _place(builder: Any, start: Any, offset: Any) -> Any:
+    """The address of a byte at an offset from a head."""
+    base = builder.bitcast(start, cgutils.voidptr_t)
     return cgutils.pointer_add(builder, base, offset, return_type=cgutils.voidptr_t)
 
 
-@intrinsic
-def head(_typing: Any, cells: Any, dtype: Any) -> Any:
-    """head(cells, DTYPE): the record at the start of an array of cells."""
-    made = dtype.dtype
-
-    def code(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        array = context.make_array(signature.args[0])(context, builder, value=args[0])
-        return builder.bitcast(array.data, context.get_value_type(made))
-
-    return made(cells, dtype), code
+def _said(context: Any, builder: Any, start: Any, at: int) -> Any:
+    """The number at that byte of a head."""
+    place = _place(builder, start, _number(context, at))
+    return builder.load(builder.bitcast(place, cgutils.intp_t.as_pointer()))
 
 
-@intrinsic
-def record(_typing: Any, start: Any, offset: Any, dtype: Any) -> Any:
-    """record(head, bytes, DTYPE): the record at an offset."""
-    made = dtype.dtype
-
-    def code(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        place = _pointer(context, builder, signature.args[0], args[0], args[1])
-        return builder.bitcast(place, context.get_value_type(made))
-
-    return made(start, types.int64, dtype), code
+def _lengths(context: Any, builder: Any, start: Any, sizes: list[tuple[bool, int]]) -> list[Any]:
+    return [_number(context, n) if known else _said(context, builder, start, n) for known, n in sizes]
 
 
-def _array(context: Any, builder: Any, kind: Any, place: Any, shape: Any) -> Any:
+def _array(context: Any, builder: Any, kind: Any, place: Any, shape: list[Any]) -> Any:
     """An array that owns nothing."""
     made = arrayobj.make_array(kind)(context, builder)
-    size = context.get_constant(types.intp, 8)
-    strides = [size] if len(shape) == 1 else [builder.mul(size, shape[1]), size]
+    size = _number(context, CELL)
     arrayobj.populate_array(
         made,
         data=builder.bitcast(place, context.get_data_type(kind.dtype).as_pointer()),
         shape=shape,
-        strides=strides,
+        strides=[size] if len(shape) == 1 else [builder.mul(size, shape[1]), size],
         itemsize=size,
         meminfo=None,
     )
     return made._getvalue()
 
 
-def _lines(dtype: Any) -> Any:
+def _compiled(function: Callable[..., Any]) -> Any:
+    """What numba puts into kernels where they call it, as machine code straight away."""
+    return cast(Any, intrinsic)(function)
+
+
+def _head(_typing: Any, cells: Any, dtype: Any) -> Any:
+    kind = dtype.dtype
+
+    def code(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        array = context.make_array(signature.args[0])(context, builder, value=args[0])
+        return builder.bitcast(array.data, context.get_value_type(kind))
+
+    return kind(cells, dtype), code
+
+
+def _stretch(dtype: Any) -> Callable[..., Any]:
     kind = types.Array(dtype, 1, "C")
 
-    def typed(_typing: Any, start: Any, offset: Any, n: Any) -> Any:
-        def code(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            place = _pointer(context, builder, signature.args[0], args[0], args[1])
-            return _array(context, builder, kind, place, [args[2]])
+    def stretch(_typing: Any, start: Any, _offset: Any, _n: Any) -> Any:
+        def code(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+            return _array(context, builder, kind, _place(builder, args[0], args[1]), [args[2]])
 
         return kind(start, types.int64, types.int64), code
 
-    return typed
+    return stretch
 
 
-@intrinsic
-def line(_typing: Any, start: Any, offset: Any, n: Any) -> Any:
-    """line(head, bytes, n): n float64 at an offset."""
-    return _lines(types.float64)(_typing, start, offset, n)
-
-
-@intrinsic
-def integers(_typing: Any, start: Any, offset: Any, n: Any) -> Any:
-    """integers(head, bytes, n): n int64 at an offset."""
-    return _lines(types.int64)(_typing, start, offset, n)
-
-
-def _grids(dtype: Any) -> Any:
-    kind = types.Array(dtype, 2, "C")
-
-    def typed(_typing: Any, start: Any, offset: Any, n: Any, m: Any) -> Any:
-        def code(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            place = _pointer(context, builder, signature.args[0], args[0], args[1])
-            return _array(context, builder, kind, place, [args[2], args[3]])
-
-        return kind(start, types.int64, types.int64, types.int64), code
-
-    return typed
-
-
-@intrinsic
-def grid(_typing: Any, start: Any, offset: Any, n: Any, m: Any) -> Any:
-    """grid(head, bytes, n, m): n lines of m float64 at an offset."""
-    return _grids(types.float64)(_typing, start, offset, n, m)
-
-
-@intrinsic
-def integer_grid(_typing: Any, start: Any, offset: Any, n: Any, m: Any) -> Any:
-    """integer_grid(head, bytes, n, m): n lines of m int64 at an offset."""
-    return _grids(types.int64)(_typing, start, offset, n, m)
+head: Callable[[FloatArray, np.dtype[Any]], Any] = _compiled(_head)
+"""head(cells, DTYPE): the record at the start of an array of cells."""
+line: Callable[[Any, int, int], FloatArray] = _compiled(_stretch(types.float64))
+"""line(head, bytes, n): n float64 at an offset."""
+integers: Callable[[Any, int, int], Any] = _compiled(_stretch(types.int64))
+"""integers(head, bytes, n): n int64 at an offset."""

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from physics.engine.cells import Layout, grid, integers, line, record
+from physics.engine.cells import Layout
 from physics.formula.kernel import branches, evaluate
-from physics.jit import accessor, part
+from physics.jit import part
 from sketch.ink import FloatArray
 
 _INDICES = ("kind", "i", "j", "tension", "reader", "over", "broken")
@@ -81,121 +81,63 @@ COUNTS = (
 )
 LAYOUT = Layout(BLOCKS, COUNTS)
 WORLD = LAYOUT.head
-_LINK, _PAIR, _PUSH, _SUPPORT, _COURSE = (d.itemsize for d in (LINK, PAIR, PUSH, SUPPORT, COURSE))
 
 PUSHED = 0
 """The opcode of a number in a program (physics.formula.kernel)."""
 
-
-@accessor
-def gravity(w: Any) -> FloatArray:
-    """(2,) m/s²."""
-    return line(w, w.gravity_at, 2)
-
-
-@accessor
-def masses(w: Any) -> FloatArray:
-    """(bodies, 3) kg, kg, kg m²."""
-    return grid(w, w.mass_at, w.bodies, 3)
-
-
-@accessor
-def inverses(w: Any) -> FloatArray:
-    """(bodies, 3) 1 / mass; zero for what is fixed and along a course."""
-    return grid(w, w.inverse_at, w.bodies, 3)
-
-
-@accessor
-def radii(w: Any) -> FloatArray:
-    """(bodies,) m."""
-    return line(w, w.radius_at, w.bodies)
-
-
-@accessor
-def firsts(w: Any) -> Any:
-    """(bodies,) first corner."""
-    return integers(w, w.first_at, w.bodies)
-
-
-@accessor
-def counts(w: Any) -> Any:
-    """(bodies,) number of corners; none: a disc."""
-    return integers(w, w.count_at, w.bodies)
-
-
-@accessor
-def reaches(w: Any) -> FloatArray:
-    """(bodies,) m."""
-    return line(w, w.reach_at, w.bodies)
-
-
-@accessor
-def corners(w: Any) -> FloatArray:
-    """(vertices, 2) m."""
-    return grid(w, w.corners_at, w.vertices, 2)
-
-
-@accessor
-def normals(w: Any) -> FloatArray:
-    """(vertices, 2)."""
-    return grid(w, w.normals_at, w.vertices, 2)
-
-
-@accessor
-def edges(w: Any) -> FloatArray:
-    """(vertices,) m."""
-    return line(w, w.edges_at, w.vertices)
-
-
-@accessor
-def link_of(w: Any, k: int) -> Any:
-    """Link k."""
-    return record(w, w.links_at + k * _LINK, LINK)
-
-
-@accessor
-def pair_of(w: Any, k: int) -> Any:
-    """Pair k."""
-    return record(w, w.pairs_at + k * _PAIR, PAIR)
-
-
-@accessor
-def push_of(w: Any, k: int) -> Any:
-    """Student's force k."""
-    return record(w, w.pushes_at + k * _PUSH, PUSH)
-
-
-@accessor
-def support_of(w: Any, k: int) -> Any:
-    """Given normal force k."""
-    return record(w, w.supports_at + k * _SUPPORT, SUPPORT)
-
-
-@accessor
-def course_of(w: Any, k: int) -> Any:
-    """Course k."""
-    return record(w, w.courses_at + k * _COURSE, COURSE)
+gravity = LAYOUT.numbers("gravity", 2)
+"""(2,) m/s²."""
+masses = LAYOUT.numbers("mass", "bodies", 3)
+"""(bodies, 3) kg, kg, kg m²."""
+inverses = LAYOUT.numbers("inverse", "bodies", 3)
+"""(bodies, 3) 1 / mass; zero for what is fixed and along a course."""
+radii = LAYOUT.numbers("radius", "bodies")
+"""(bodies,) m."""
+firsts = LAYOUT.integers("first", "bodies")
+"""(bodies,) first corner."""
+counts = LAYOUT.integers("count", "bodies")
+"""(bodies,) number of corners; none: a disc."""
+reaches = LAYOUT.numbers("reach", "bodies")
+"""(bodies,) m."""
+corners = LAYOUT.numbers("corners", "vertices", 2)
+"""(vertices, 2) m."""
+normals = LAYOUT.numbers("normals", "vertices", 2)
+"""(vertices, 2)."""
+edges = LAYOUT.numbers("edges", "vertices")
+"""(vertices,) m."""
+link_of = LAYOUT.records("links", LINK)
+"""Link k."""
+pair_of = LAYOUT.records("pairs", PAIR)
+"""Pair k."""
+push_of = LAYOUT.records("pushes", PUSH)
+"""Student's force k."""
+support_of = LAYOUT.records("supports", SUPPORT)
+"""Given normal force k."""
+course_of = LAYOUT.records("courses", COURSE)
+"""Course k."""
+_ops = LAYOUT.integers("ops", "code")
+_args = LAYOUT.numbers("args", "code")
+_who = LAYOUT.integers("who", "code")
+_spans = LAYOUT.integers("spans", "programs", 2)
+_switches = LAYOUT.integers("switches", "programs")
+_stack = LAYOUT.numbers("stack", "depth")
 
 
 @part
 def value(w: Any, program: int, t: float, pos: FloatArray, vel: FloatArray) -> float:
     """A program's value; NaN where it has none."""
-    spans = integers(w, w.spans_at, 2 * w.programs)
-    start, stop = spans[2 * program], spans[2 * program + 1]
-    ops, args = integers(w, w.ops_at, w.code), line(w, w.args_at, w.code)
+    spans, ops, args = _spans(w), _ops(w), _args(w)
+    start, stop = spans[program, 0], spans[program, 1]
     if stop == start + 1 and ops[start] == PUSHED:
-        return args[start]
-    who, stack = integers(w, w.who_at, w.code), line(w, w.stack_at, w.depth)
-    return evaluate(ops, args, who, start, stop, t, pos, vel, stack)
+        return float(args[start])
+    return evaluate(ops, args, _who(w), start, stop, t, pos, vel, _stack(w))
 
 
 @part
 def branch(w: Any, program: int, t: float, pos: FloatArray, vel: FloatArray) -> int:
     """Which branches a program takes, as a number; 0 where it has none to take."""
-    if integers(w, w.switches_at, w.programs)[program] == 0:
+    if _switches(w)[program] == 0:
         return 0
-    spans = integers(w, w.spans_at, 2 * w.programs)
-    start, stop = spans[2 * program], spans[2 * program + 1]
-    ops, args = integers(w, w.ops_at, w.code), line(w, w.args_at, w.code)
-    who, stack = integers(w, w.who_at, w.code), line(w, w.stack_at, w.depth)
-    return branches(ops, args, who, start, stop, t, pos, vel, stack)
+    spans = _spans(w)
+    start, stop = spans[program, 0], spans[program, 1]
+    return branches(_ops(w), _args(w), _who(w), start, stop, t, pos, vel, _stack(w))

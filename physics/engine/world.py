@@ -294,8 +294,9 @@ def _shapes(
 
 
 def _pairs(everyone: list[Body], movable: int, links: Table, supports: Table) -> Table:
-    """Pairs with one that moves, but those that a pin joins. A load may well hit the wheel that its own wire runs
-    over."""
+    """Pairs with one that moves, but those that a pin joins.
+
+    A load may well hit the wheel that its own wire runs over."""
     apart = {frozenset((int(link["i"]), int(link["j"]))) for link in links if link["kind"] == PIN}
     given = {frozenset((int(s["i"]), int(s["j"]))): k for k, s in enumerate(supports)}
     rows: list[tuple[int, int, int, float, float, float, float]] = []

@@ -11,10 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from physics.engine.cells import Layout, grid, integers, line, record
+from physics.engine.cells import Layout
 from physics.engine.rows import ROW
 from physics.engine.world import IntArray, Table
-from physics.jit import accessor
 from sketch.ink import FloatArray
 
 POWERS = 8
@@ -79,7 +78,6 @@ COUNTS = (
 )
 LAYOUT = Layout(BLOCKS, COUNTS)
 MACHINE = LAYOUT.head
-_ROW = ROW.itemsize
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,199 +208,69 @@ def machine_of(
     )
 
 
-@accessor
-def row_of(m: Any, k: int) -> Any:
-    """Row k."""
-    return record(m, m.rows_at + k * _ROW, ROW)
-
-
-@accessor
-def unknown_rows(m: Any) -> Any:
-    """(unknowns,) the row that each belongs to."""
-    return integers(m, m.row_at, m.unknowns)
-
-
-@accessor
-def tangents(m: Any) -> Any:
-    """(unknowns,) 1 for forces along a row's tangent."""
-    return integers(m, m.tangent_at, m.unknowns)
-
-
-@accessor
-def starts(m: Any) -> Any:
-    """(unknowns,) the first column of each line's profile."""
-    return integers(m, m.start_at, m.unknowns)
-
-
-@accessor
-def matrix(m: Any) -> FloatArray:
-    """(unknowns, unknowns)."""
-    return grid(m, m.matrix_at, m.unknowns, m.unknowns)
-
-
-@accessor
-def factor(m: Any) -> FloatArray:
-    """(unknowns, unknowns) its LU."""
-    return grid(m, m.factor_at, m.unknowns, m.unknowns)
-
-
-@accessor
-def given(m: Any) -> FloatArray:
-    """(unknowns,) the right-hand side."""
-    return line(m, m.given_at, m.unknowns)
-
-
-@accessor
-def found(m: Any) -> FloatArray:
-    """(unknowns,) the solution."""
-    return line(m, m.found_at, m.unknowns)
-
-
-@accessor
-def change(m: Any) -> FloatArray:
-    """(unknowns,) room for a correction."""
-    return line(m, m.change_at, m.unknowns)
-
-
-@accessor
-def forces_of(m: Any) -> FloatArray:
-    """(bodies, 3) all forces on each body."""
-    return grid(m, m.force_at, m.bodies, 3)
-
-
-@accessor
-def status(m: Any) -> Any:
-    """[0]: 1 where the forces are not unique."""
-    return integers(m, m.status_at, 1)
-
-
-@accessor
-def state(m: Any) -> FloatArray:
-    """(size,) the state at the step's start."""
-    return line(m, m.y_at, m.size)
-
-
-@accessor
-def newest(m: Any) -> FloatArray:
-    """(size,) the state at the step's end."""
-    return line(m, m.new_at, m.size)
-
-
-@accessor
-def slopes(m: Any) -> FloatArray:
-    """(16, size) derivatives at the stages."""
-    return grid(m, m.slopes_at, STAGES, m.size)
-
-
-@accessor
-def slope(m: Any, stage: int) -> FloatArray:
-    """(size,) the derivative at one stage."""
-    return line(m, m.slopes_at + 8 * stage * m.size, m.size)
-
-
-@accessor
-def dense_of(m: Any) -> FloatArray:
-    """(8, size) dense output of the latest step."""
-    return grid(m, m.dense_at, POWERS, m.size)
-
-
-@accessor
-def poses(m: Any) -> FloatArray:
-    """(bodies, 3) of the latest evaluation."""
-    return grid(m, m.pos_at, m.bodies, 3)
-
-
-@accessor
-def velocities(m: Any) -> FloatArray:
-    """(bodies, 3)."""
-    return grid(m, m.vel_at, m.bodies, 3)
-
-
-@accessor
-def accelerations(m: Any) -> FloatArray:
-    """(bodies, 3)."""
-    return grid(m, m.acc_at, m.bodies, 3)
-
-
-@accessor
-def power(m: Any) -> FloatArray:
-    """(ledger,) W."""
-    return line(m, m.power_at, m.ledger)
-
-
-@accessor
-def clock(m: Any) -> FloatArray:
-    """[T], [H], [GREATEST], [AT]."""
-    return line(m, m.clock_at, 4)
-
-
-@accessor
-def before(m: Any) -> FloatArray:
-    """(watched,) at the step's start."""
-    return line(m, m.before_at, m.watched)
-
-
-@accessor
-def after(m: Any) -> FloatArray:
-    """(watched,) as last looked at."""
-    return line(m, m.after_at, m.watched)
-
-
-@accessor
-def kept(m: Any) -> FloatArray:
-    """(watched,) at the step's end."""
-    return line(m, m.kept_at, m.watched)
-
-
-@accessor
-def hits(m: Any) -> Any:
-    """(watched,) 1 for what crossed zero in this event."""
-    return integers(m, m.hit_at, m.watched)
-
-
-@accessor
-def took(m: Any) -> Any:
-    """(programs,) branches at the step's start."""
-    return integers(m, m.took_at, m.programs)
-
-
-@accessor
-def takes(m: Any) -> Any:
-    """(programs,) branches as last looked at."""
-    return integers(m, m.takes_at, m.programs)
-
-
-@accessor
-def gaps(m: Any) -> FloatArray:
-    """(pairs,) of the candidates."""
-    return line(m, m.gaps_at, m.pairs)
-
-
-@accessor
-def olds(m: Any) -> FloatArray:
-    """(pairs,) a sample ago."""
-    return line(m, m.olds_at, m.pairs)
-
-
-@accessor
-def candidates(m: Any) -> Any:
-    """(pairs,) those that may meet within the step."""
-    return integers(m, m.candidates_at, m.pairs)
-
-
-@accessor
-def spans(m: Any) -> FloatArray:
-    """(capacity, 2) begin and end of recorded steps."""
-    return grid(m, m.spans_at, m.capacity, 2)
-
-
-@accessor
-def recording(m: Any, step: int) -> FloatArray:
-    """(8 · size,) dense output of a recorded step."""
-    return line(m, m.record_at + 64 * step * m.size, POWERS * m.size)
-
-
-@accessor
-def recorded(m: Any) -> Any:
-    """[0]: how many steps are recorded."""
-    return integers(m, m.recorded_at, 1)
+row_of = LAYOUT.records("rows", ROW)
+"""Row k."""
+unknown_rows = LAYOUT.integers("row", "unknowns")
+"""(unknowns,) the row that each belongs to."""
+tangents = LAYOUT.integers("tangent", "unknowns")
+"""(unknowns,) 1 for forces along a row's tangent."""
+starts = LAYOUT.integers("start", "unknowns")
+"""(unknowns,) the first column of each line's profile."""
+matrix = LAYOUT.numbers("matrix", "unknowns", "unknowns")
+"""(unknowns, unknowns)."""
+factor = LAYOUT.numbers("factor", "unknowns", "unknowns")
+"""(unknowns, unknowns) its LU."""
+given = LAYOUT.numbers("given", "unknowns")
+"""(unknowns,) the right-hand side."""
+found = LAYOUT.numbers("found", "unknowns")
+"""(unknowns,) the solution."""
+change = LAYOUT.numbers("change", "unknowns")
+"""(unknowns,) room for a correction."""
+forces_of = LAYOUT.numbers("force", "bodies", 3)
+"""(bodies, 3) all forces on each body."""
+status = LAYOUT.integers("status", 1)
+"""[0]: 1 where the forces are not unique."""
+state = LAYOUT.numbers("y", "size")
+"""(size,) the state at the step's start."""
+newest = LAYOUT.numbers("new", "size")
+"""(size,) the state at the step's end."""
+slopes = LAYOUT.numbers("slopes", STAGES, "size")
+"""(16, size) derivatives at the stages."""
+slope = LAYOUT.lines("slopes", "size")
+"""(size,) the derivative at one stage."""
+dense_of = LAYOUT.numbers("dense", POWERS, "size")
+"""(8, size) dense output of the latest step."""
+poses = LAYOUT.numbers("pos", "bodies", 3)
+"""(bodies, 3) of the latest evaluation."""
+velocities = LAYOUT.numbers("vel", "bodies", 3)
+"""(bodies, 3)."""
+accelerations = LAYOUT.numbers("acc", "bodies", 3)
+"""(bodies, 3)."""
+power = LAYOUT.numbers("power", "ledger")
+"""(ledger,) W."""
+clock = LAYOUT.numbers("clock", 4)
+"""[T], [H], [GREATEST], [AT]."""
+before = LAYOUT.numbers("before", "watched")
+"""(watched,) at the step's start."""
+after = LAYOUT.numbers("after", "watched")
+"""(watched,) as last looked at."""
+kept = LAYOUT.numbers("kept", "watched")
+"""(watched,) at the step's end."""
+hits = LAYOUT.integers("hit", "watched")
+"""(watched,) 1 for what crossed zero in this event."""
+took = LAYOUT.integers("took", "programs")
+"""(programs,) branches at the step's start."""
+takes = LAYOUT.integers("takes", "programs")
+"""(programs,) branches as last looked at."""
+gaps = LAYOUT.numbers("gaps", "pairs")
+"""(pairs,) of the candidates."""
+olds = LAYOUT.numbers("olds", "pairs")
+"""(pairs,) a sample ago."""
+candidates = LAYOUT.integers("candidates", "pairs")
+"""(pairs,) those that may meet within the step."""
+spans = LAYOUT.numbers("spans", "capacity", 2)
+"""(capacity, 2) begin and end of recorded steps."""
+recording = LAYOUT.lines("record", POWERS, "size")
+"""(8 · size,) dense output of a recorded step."""
+recorded = LAYOUT.integers("recorded", 1)
+"""[0]: how many steps are recorded."""

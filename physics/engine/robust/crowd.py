@@ -136,6 +136,7 @@ def gathered(arrays: Sequence[NDArray[Any]]) -> Crowd:
     named = dict(zip(BLOCKS, arrays, strict=True))
     counts = {
         "bodies": len(named["pos"]),
+        "solids": len(named["order"]),
         "columns": named["real"].shape[1],
         **{name: len(named[name]) for name in ("near", "rows", "asked", "events")},
         "pairs": len(named["touching"]),
