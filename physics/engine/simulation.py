@@ -14,12 +14,14 @@ stopped and goes on equals one that was not.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from math import floor, inf, isfinite
 
 import numpy as np
 
-from physics.engine.exact.run import ExactRun, TooMuch
+from physics.engine.exact.run import ExactRun, TooMuch, separate
+from physics.engine.exact.tell import Teller
 from physics.engine.exact.touch import TOUCHING, near_pairs
 from physics.engine.meetings import Meeting, first_meeting
 from physics.engine.robust.run import RobustRun
@@ -27,6 +29,7 @@ from physics.engine.source import SceneSource
 from physics.engine.world import Names, World, start_of, world_of
 from physics.scene import Scene, SceneError
 from physics.trajectory import Event, Mode, Trajectory
+from sketch.ink import FloatArray
 
 ACCURACY = 1e-11
 """m and m/s a step (relative above 1): a pendulum is then right to 1e-9 after ten seconds."""
@@ -71,12 +74,17 @@ class Simulation:
         labels = tuple(body.label for body in scene.bodies if not body.fixed)
         if labels:
             world, names = world_of(scene, labels)
-            _refuse_too_stiff(world, names)
+            _refuse_too_stiff(world)
             groups = _clusters(scene, labels, world, names)
             for group in groups:
                 made = (world, names) if len(groups) == 1 else world_of(scene, group)
                 pos, vel = start_of(scene, made[1])
-                self.strands.append(Strand(group, [self._begun(*made, pos, vel, 0.0)]))
+                notes: list[Event] = []
+                if mode == "robust":
+                    # Exact mode does so itself. A crowd too thick for it is let out step by step.
+                    with suppress(TooMuch):
+                        separate(made[0], pos, vel, Teller(made[1], notes), 0.0)
+                self.strands.append(Strand(group, [self._begun(*made, pos, vel, 0.0)], notes=notes))
 
     def run_to(self, seconds: float) -> None:
         """Goes on until everything has been simulated up to `seconds`, or a formula has no value."""
@@ -130,7 +138,7 @@ class Simulation:
         return tuple(sorted(events, key=lambda event: event.time))
 
     def _begun(
-        self, world: World, names: Names, pos: np.ndarray, vel: np.ndarray, time: float
+        self, world: World, names: Names, pos: FloatArray, vel: FloatArray, time: float
     ) -> ExactRun | RobustRun:
         if self.mode == "robust":
             return RobustRun(world, names, pos, vel, time)
@@ -203,7 +211,7 @@ def _carry(old: World, old_names: Names, new: World, names: Names) -> None:
         at = next(q for q, s in enumerate(new.supports) if (names.supports[q], names.bodies[s["i"]]) == key)
         for field_ in ("over", "risen"):
             new.supports[field_][at] = support[field_]
-    for k, course in enumerate(old.courses):
+    for course in old.courses:
         key = (old_names.bodies[course["body"]], int(course["axis"]))
         at = next(q for q, c in enumerate(new.courses) if (names.bodies[c["body"]], int(c["axis"])) == key)
         if not course["on"]:
@@ -256,7 +264,7 @@ def _readers(scene: Scene) -> list[tuple[str | None, tuple[str, ...]]]:
     return found
 
 
-def _refuse_too_stiff(world: World, names: Names) -> None:
+def _refuse_too_stiff(world: World) -> None:
     """Gershgorin's bound on the natural frequencies that the springs give the scene: for a spring, what all
     springs at either of its bodies can do to it."""
     springs = world.links[world.links["kind"] == 0]

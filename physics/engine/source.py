@@ -80,7 +80,7 @@ class SceneSource:
                 anchors[event.bodies[0]][times >= event.time] = np.nan
         if self.stopped < inf:
             ledger[times > self.stopped, 0] = 0.0
-        series = tuple(self._shown(force, times, held) for force in forces.values())
+        series = tuple(self._shown(force, times) for force in forces.values())
         worked = np.sum(list(works.values()), axis=0) if works else np.zeros(len(times))
         energy = Energy(ledger[:, 0], ledger[:, 1], ledger[:, 2], heat, worked, works)
         return Observed(accelerations, series, energy, anchors)
@@ -123,7 +123,7 @@ class SceneSource:
                     whole = works.setdefault((name, names.bodies[body]), np.zeros(len(times)))
                     whole[here] += entries[:, column]
 
-    def _shown(self, force: ForceSeries, times: FloatArray, held: FloatArray) -> ForceSeries:
+    def _shown(self, force: ForceSeries, times: FloatArray) -> ForceSeries:
         """Where a force is absent it is shown at the centre of mass."""
         absent = np.isnan(force.points[:, 0])
         if absent.any():

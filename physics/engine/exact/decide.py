@@ -141,6 +141,9 @@ def wrong(cells: FloatArray, memory: FloatArray, orderly: bool, change: IntArray
         else:
             if row.kind <= CORD:
                 size, what = -row.force / (FORCE * greatest), OPEN
+                if row.grip == STICK and row.kind != CORD and abs(row.rub) > FORCE * greatest:
+                    # It may pull only because it may not slip.
+                    what = SLIP
             if row.grip != FREE and row.kind != CORD and size <= 1.0:
                 bound = row.bound if row.kind == GIVEN else row.mu * row.force
                 if row.grip == STICK:

@@ -12,6 +12,7 @@ from physics.engine.cells import head
 from physics.engine.exact.integrate import between, unpack
 from physics.engine.exact.machine import MACHINE, accelerations, forces_of, poses, row_of, velocities
 from physics.engine.exact.solve import accelerate
+from physics.engine.forces import follow
 from physics.engine.rows import CORD, FREE, GIVEN, ON, turned
 from physics.engine.tables import WORLD
 from physics.engine.world import IntArray, Names, Table, World
@@ -51,6 +52,22 @@ def _sample(
         length = spans[s, 1] - spans[s, 0]
         x = (times[k] - spans[s, 0]) / length if length > 0.0 else 1.0
         between(dense[s], min(max(x, 0.0), 1.0), states[k])
+
+
+def follow_frames(modes: Sequence[Mode], times: FloatArray, pos: FloatArray, vel: FloatArray) -> None:
+    """Puts bodies under a student's equation exactly where it says they are, in every frame."""
+    starts = np.array([mode.start for mode in modes])
+    which = np.clip(np.searchsorted(starts, times, side="right") - 1, 0, None)
+    for m in np.unique(which):
+        here = slice(int(np.searchsorted(which, m)), int(np.searchsorted(which, m, side="right")))
+        _follow(modes[m].world.cells, times[here], pos[here], vel[here])
+
+
+@kernel
+def _follow(cells: FloatArray, times: FloatArray, pos: FloatArray, vel: FloatArray) -> None:
+    w = head(cells, WORLD)
+    for k in range(len(times)):
+        follow(w, times[k], pos[k], vel[k])
 
 
 def explain(

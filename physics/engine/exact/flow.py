@@ -430,8 +430,9 @@ def _sharpen(
         better = x - value * (x - other) / (value - value_other)
         other, value_other = x, value
         if not 0.0 < better <= min(1.0, 2.0 * hold) or abs(better - x) < 1e-16:
-            step(w, m, t, x * h, accuracy)
             break
         x = better
+    # Whatever was tried last: the state is that of the share returned.
+    step(w, m, t, x * h, accuracy)
     densify(w, m, t, x * h)
     return x

@@ -19,7 +19,7 @@ from physics.engine.acts import Act
 from physics.engine.exact import decide as de
 from physics.engine.exact import flow as fl
 from physics.engine.exact import strike as st
-from physics.engine.exact.explain import explain, sample
+from physics.engine.exact.explain import explain, follow_frames, sample
 from physics.engine.exact.integrate import projected
 from physics.engine.exact.machine import FIRST, POWERS, H, Machine, T, machine_of
 from physics.engine.exact.solve import LARGEST, system_of
@@ -43,6 +43,10 @@ from physics.engine.world import PIN, WIRE, Names, Table, World, copied
 from physics.trajectory import Event
 from sketch.ink import FloatArray
 
+ENDLESS = 1000
+"""Events within `ENDLESS_TIME` after which exact mode gives up: it would go on for ever."""
+ENDLESS_TIME = 0.02
+"""s."""
 CROWD = 400
 """Events within `CROWD_TIME` after which nothing rebounds any more."""
 CROWD_TIME = 1e-3
@@ -58,6 +62,10 @@ SOLVED = 1e-12
 """m/s and m/s²: velocities and accelerations below it are zero but for rounding, and need no smoothing."""
 SMOOTHED = 20
 """Frames of 1/60 s of which the smoothed motion keeps a trace above rounding (0.2 to the 20th)."""
+RATTLE = 12
+"""Events within `CROWD_TIME` after which a rebound must rise ten times as high as before to be one."""
+SLUGGISH = 3e-2
+"""m/s: what opens faster is never held shut, unless it was hit."""
 CARRIED = ("status", "grip", "sigma", "shut")
 """What a row keeps from one moment to the next."""
 
@@ -141,6 +149,8 @@ class ExactRun:
         vel = np.zeros_like(pos)
         pos[:, :n] = y[:, : 3 * n].reshape(-1, n, 3)
         vel[:, :n] = y[:, 3 * n : 6 * n].reshape(-1, n, 3)
+        if len(self.world.courses):
+            follow_frames(self.modes, times, pos, vel)
         return pos, vel
 
     def ledger(self, times: FloatArray) -> FloatArray:
@@ -190,28 +200,11 @@ class ExactRun:
 
     def _separate(self) -> None:
         """Moves bodies apart that overlap at the start."""
-        met: set[tuple[int, int]] = set()
-        for _ in range(400):
-            rows = self._touching()
-            met |= {
-                (min(row["i"], row["j"]), max(row["i"], row["j"])) for row in rows if row["gap"] < -TOUCHING
-            }
-            if st.overlap(self.world.cells, rows, self.pos) <= 0.5 * TOUCHING:
-                break
-        else:
-            if met:
-                raise TooMuch
-        for i, j in sorted(met):
-            self.tell.separated(self.time, int(i), int(j))
+        separate(self.world, self.pos, self.vel, self.tell, self.time)
 
     def _touching(self) -> Table:
         """Every contact, refreshed."""
-        pairs = len(self.world.pairs)
-        room = np.zeros(4 * pairs + 4 if pairs < 4 * LARGE else 16 * LARGE, ROW)
-        n = int(all_touching(self.world.cells, self.pos, self.vel, TOUCHING, room))
-        if n < 0 or n > LARGE:
-            raise TooMuch
-        return room[:n].copy()
+        return _touching(self.world, self.pos, self.vel)
 
     def _settle(self) -> None:
         """Finds what touches, strikes what meets, decides what holds, and starts a new mode."""
@@ -291,20 +284,26 @@ class ExactRun:
         closed = (rows["gap"] <= TOUCHING) & (rows["kind"] < GIVEN)
         approach = closed & (rows["kind"] <= CORD) & (rows["rate"] < -st.APPROACH)
         pins = (rows["kind"] >= PIN_X) & (rows["kind"] < GIVEN) & (np.abs(rows["rate"]) > st.APPROACH)
-        if not (approach.any() or pins.any()):
+        # Opening so slowly that it may be pressed shut again at once.
+        slow = closed & (rows["kind"] <= CORD) & (rows["rate"] > st.APPROACH) & (rows["rate"] < SLUGGISH)
+        if not (approach.any() or pins.any() or slow.any()):
             return
         for row in rows[approach & (rows["kind"] <= POINT)]:
             self._release(int(row["i"]))
             self._release(int(row["j"]))
         free = rows.copy()
-        free["status"][approach] = OFF
+        free["status"][approach | slow] = OFF
         machine = self._machine(free)
         de.accelerated(self.world.cells, machine.cells, self.time)
         de.pressing(machine.cells)
         rows["press"], rows["shut"] = machine.rows["press"], 0
         struck = np.zeros(len(rows))
-        crowded = sum(when > self.time - CROWD_TIME for when in self.lately) > CROWD
-        heat = st.strike(self.world.cells, rows, self.pos, self.vel, crowded, np.zeros_like(self.vel), struck)
+        lately = sum(when > self.time - CROWD_TIME for when in self.lately)
+        # A wire and a floor may hand a body to and fro for ever: the faster they do, the higher it must rise.
+        rise = st.RISE * 10.0 ** min(lately // RATTLE, 4)
+        heat = st.strike(
+            self.world.cells, rows, self.pos, self.vel, rise, lately > CROWD, np.zeros_like(self.vel), struck
+        )
         self.works[0] += heat
         self.tell.impacts(self.time, rows, struck)
         for k in np.flatnonzero(closed & (rows["kind"] == CORD)):
@@ -336,9 +335,9 @@ class ExactRun:
 
     def _happen(self, code: int) -> None:
         """One event: marks what it changes, then settles."""
-        self.lately = [when for when in self.lately if when > self.time - CROWD_TIME]
+        self.lately = [when for when in self.lately if when > self.time - ENDLESS_TIME]
         self.lately.append(self.time)
-        if sum(when > self.time - 1e-12 for when in self.lately) > STUCK or len(self.lately) > 10 * CROWD:
+        if sum(when > self.time - 1e-12 for when in self.lately) > STUCK or len(self.lately) > ENDLESS:
             raise TooMuch
         self.world = copied(self.world, self.names.movable)
         if code == fl.HAPPENED:
@@ -439,6 +438,32 @@ class ExactRun:
         dense[0, 0] = mode.machine.y
         mode.dense.append(dense)
         self.time = until
+
+
+def separate(world: World, pos: FloatArray, vel: FloatArray, tell: Teller, time: float) -> None:
+    """Moves bodies apart that overlap, changing pos, and tells so. Raises TooMuch where that does not end."""
+    met: set[tuple[int, int]] = set()
+    for _ in range(400):
+        rows = _touching(world, pos, vel)
+        overlapping = rows[rows["gap"] < -TOUCHING]
+        met |= {(min(row["i"], row["j"]), max(row["i"], row["j"])) for row in overlapping}
+        if st.overlap(world.cells, rows, pos) <= 0.5 * TOUCHING:
+            break
+    else:
+        if met:
+            raise TooMuch
+    for i, j in sorted(met):
+        tell.separated(time, int(i), int(j))
+
+
+def _touching(world: World, pos: FloatArray, vel: FloatArray) -> Table:
+    """Every contact, refreshed. Raises TooMuch where there are more than exact mode can decide."""
+    pairs = len(world.pairs)
+    room = np.zeros(4 * pairs + 4 if pairs < 4 * LARGE else 16 * LARGE, ROW)
+    n = int(all_touching(world.cells, pos, vel, TOUCHING, room))
+    if n < 0 or n > LARGE:
+        raise TooMuch
+    return room[:n].copy()
 
 
 def _standing_rows(world: World) -> Table:

@@ -40,6 +40,7 @@ def strike(
     rows: Table,
     pos: FloatArray,
     vel: FloatArray,
+    rise: float,
     crowded: bool,
     before: FloatArray,
     struck: FloatArray,
@@ -47,7 +48,7 @@ def strike(
     """Changes `vel`; returns the heat, J. rows[k].press must be known.
 
     struck (rows,): how fast each contact closed when it was hit, m/s, zero if it was not. before: room for
-    velocities. crowded: nothing rebounds.
+    velocities. rise: m, see `RISE`; crowded: nothing rebounds.
     """
     w = head(cells, WORLD)
     energy = kinetic(w, vel)
@@ -72,7 +73,7 @@ def strike(
                 row.bound, row.along = 1.0, 0.0
                 e = row.e
                 rebound = e * row.rate
-                low = row.press < 0.0 and rebound * rebound < -2.0 * row.press * RISE and e < 1.0
+                low = row.press < 0.0 and rebound * rebound < -2.0 * row.press * rise and e < 1.0
                 if low or crowded or turn >= ROUNDS:
                     e = 0.0
                     row.shut = 1
@@ -87,15 +88,15 @@ def strike(
         _sweep(w, rows, vel)
         if kinetic(w, vel) > start * (1.0 + 1e-12):
             _calm(w, rows, vel, before, start)
-    _hold(w, rows, pos, vel)
+    _hold(w, rows, pos, vel, rise)
     refresh_table(rows, pos, vel)
     return energy - kinetic(w, vel)
 
 
 @part
-def _hold(w: Any, rows: Table, pos: FloatArray, vel: FloatArray) -> None:
-    """Keeps shut what was hit, or holds taut, and would open by less than `RISE` before it is pressed shut again:
-    two wires that each tauten as the other slackens would go on without end."""
+def _hold(w: Any, rows: Table, pos: FloatArray, vel: FloatArray, rise: float) -> None:
+    """Keeps shut, or taut, what would open by less than `rise` before it is pressed shut again: two corners that
+    lift each other, or two wires that slacken each other, would go on without end."""
     refresh_table(rows, pos, vel)
     needed = False
     for k in range(len(rows)):
@@ -105,7 +106,7 @@ def _hold(w: Any, rows: Table, pos: FloatArray, vel: FloatArray) -> None:
             continue
         if row.kind >= PIN_X or (row.kind == CORD and abs(row.rate) <= APPROACH):
             row.bound, row.along = 1.0, 0.0
-        elif row.rate > APPROACH and row.rate**2 < -2.0 * row.press * RISE and (row.kind == CORD or row.shut):
+        elif row.rate > APPROACH and row.rate**2 < -2.0 * row.press * rise and row.e < 1.0:
             row.bound, row.along = 2.0, 0.0
             needed = True
     if needed:
