@@ -48,12 +48,8 @@ def kernel(function: F) -> F:
 def part(function: F) -> F:
     """A kernel that kernels alone call. It has no entry from Python (a call from there would crash) and is kept
     on disk only within the kernels that it is compiled into: both take half the time to compile."""
-    return cast(F, numba.njit(**OPTIONS, no_cpython_wrapper=True, no_cfunc_wrapper=True)(function))
-
-
-def accessor(function: F) -> F:
-    """The same for one-liners: put in the caller's place before anything is compiled."""
-    return cast(F, numba.njit(inline="always")(function))
+    options: dict[str, Any] = {**OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    return cast(F, numba.njit(**options)(function))
 
 
 @cache

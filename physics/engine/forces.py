@@ -61,7 +61,7 @@ def ends_of(
     bx, by = turned(pos[j, 2], link.bx, link.by)
     if link.over >= 0:
         wheel = link.over
-        radius, cx, cy = radii(w)[wheel], pos[wheel, 0], pos[wheel, 1]
+        radius, cx, cy = float(radii(w)[wheel]), pos[wheel, 0], pos[wheel, 1]
         first, ux, uy, touch, _ = wrapped(pos[i, 0] + ax, pos[i, 1] + ay, cx, cy, radius, link.sense)
         second, wx, wy, leave, _ = wrapped(pos[j, 0] + bx, pos[j, 1] + by, cx, cy, radius, -link.sense)
         arc = link.sense * (leave - touch)
@@ -148,7 +148,7 @@ def clearance(w: Any, k: int, pos: FloatArray, vel: FloatArray) -> tuple[float, 
     dx, dy = pos[i, 0] - pos[j, 0], pos[i, 1] - pos[j, 1]
     ux, uy = vel[i, 0] - vel[j, 0], vel[i, 1] - vel[j, 1]
     along = 0.0
-    gap = hypot(dx, dy) - radii(w)[j]
+    gap = hypot(dx, dy) - float(radii(w)[j])
     rate = nx * ux + ny * uy
     if support.length > 0.0:
         ax, ay = turned(pos[j, 2], support.ax, support.ay)
@@ -156,7 +156,7 @@ def clearance(w: Any, k: int, pos: FloatArray, vel: FloatArray) -> tuple[float, 
         along = -ny * (dx - ax) + nx * (dy - ay)
         rate += vel[j, 2] * (-ny * dx + nx * dy)
     if counts(w)[i] == 0:
-        return gap - radii(w)[i], rate, along
+        return gap - float(radii(w)[i]), rate, along
     lowest = 1e300
     lever = 0.0
     for q in range(firsts(w)[i], firsts(w)[i] + counts(w)[i]):

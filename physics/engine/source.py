@@ -42,7 +42,7 @@ class SceneSource:
             if here.any():
                 pos, vel = states_of(strand, held[here])
                 names = strand.run.names
-                columns = [column[label] for label in names.bodies[: names.movable]]
+                columns = np.array([column[label] for label in names.bodies[: names.movable]])
                 poses[np.ix_(here, columns)] = pos[:, : names.movable]
                 velocities[np.ix_(here, columns)] = vel[:, : names.movable]
         velocities[times > self.stopped] = 0.0
@@ -66,7 +66,7 @@ class SceneSource:
                 names, when = run.names, held[here]
                 pos, vel = run.states(when)
                 acts, acc = run.observe(when)
-                columns = [column[label] for label in names.bodies[: names.movable]]
+                columns = np.array([column[label] for label in names.bodies[: names.movable]])
                 accelerations[np.ix_(here, columns)] = acc[:, : names.movable]
                 for act in acts:
                     _add(forces, act, names.bodies[act.body], here)

@@ -49,7 +49,7 @@ BLOCKS = (
     "inverse",
     "radius",
     "first",
-    "count",
+    "sides",
     "reach",
     "corners",
     "normals",
@@ -95,7 +95,7 @@ radii = LAYOUT.numbers("radius", "bodies")
 """(bodies,) m."""
 firsts = LAYOUT.integers("first", "bodies")
 """(bodies,) first corner."""
-counts = LAYOUT.integers("count", "bodies")
+counts = LAYOUT.integers("sides", "bodies")
 """(bodies,) number of corners; none: a disc."""
 reaches = LAYOUT.numbers("reach", "bodies")
 """(bodies,) m."""

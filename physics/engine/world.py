@@ -42,7 +42,7 @@ class World(NamedTuple):
     radius: FloatArray
     """(bodies,) m, of discs; zero for blocks."""
     first: IntArray
-    count: IntArray
+    sides: IntArray
     """(bodies,) rows of `corners` that are a block's; none for discs."""
     reach: FloatArray
     """(bodies,) m: the farthest point from the centre of mass."""
@@ -204,7 +204,7 @@ def gathered(arrays: Sequence[NDArray[Any]], movable: int) -> World:
         },
         named,
     )
-    return World(*(LAYOUT.view(cells, name, array) for name, array in named.items()), cells)
+    return World._make((*(LAYOUT.view(cells, name, array) for name, array in named.items()), cells))
 
 
 def copied(world: World, movable: int) -> World:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.formula.program import BINARY, STATE, UNARY, Program
-from physics.jit import kernel
+from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
 IntArray = NDArray[np.int64]
@@ -213,7 +213,7 @@ def branches(
     return signature
 
 
-@kernel
+@part
 def _read(quantity: int, body: int, t: float, pos: FloatArray, vel: FloatArray) -> float:
     if quantity == 0:
         return t
@@ -226,13 +226,13 @@ def _read(quantity: int, body: int, t: float, pos: FloatArray, vel: FloatArray) 
     return vel[body, 2]
 
 
-@kernel
+@part
 def _second(op: int, a: float, b: float) -> bool:
     """Whether min or max takes its second argument."""
     return b < a if op == MIN else b > a
 
 
-@kernel
+@part
 def _decision(op: int, a: float) -> int:
     if op == ABS:
         return 1 if a < 0 else 2
@@ -242,7 +242,7 @@ def _decision(op: int, a: float) -> int:
     return int(min(max(whole, -_EXACT), _EXACT))
 
 
-@kernel
+@part
 def _binary(op: int, a: float, b: float) -> float:
     if op == ADD:
         return a + b
@@ -255,7 +255,7 @@ def _binary(op: int, a: float, b: float) -> float:
     return b if _second(op, a, b) else a
 
 
-@kernel
+@part
 def _unary(op: int, a: float) -> float:
     if op == SIN:
         return math.sin(a)

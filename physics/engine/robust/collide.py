@@ -84,8 +84,8 @@ def approach(gap: float, rate: float, pull: float, lag: float, h: float) -> tupl
 
 @part
 def strike(w: Any, m: Any, h: float, lag: float) -> float:
-    """Gives all that collides within the substep its velocity afterwards; the energy that
-    is lost, J, or −1 if nothing collides. HIT of a contact becomes the fastest approach, m/s, of those that were struck, else zero."""
+    """Gives all that collides within the substep its velocity afterwards; the energy that is lost, J, or −1 if
+    nothing collides. HIT of a contact becomes the fastest approach, m/s, if it was struck, else zero."""
     vel, real, whole, bars = vel_of(m), real_of(m), whole_of(m), bars_of(m)
     contacts, rows = tally_of(m)[CONTACTS], m.rows
     gx, gy = gravity(w)[0], gravity(w)[1]

@@ -133,7 +133,7 @@ def crowd_of(world: World, names: Names, pos: FloatArray, vel: FloatArray, ledge
 
 def gathered(arrays: Sequence[NDArray[Any]]) -> Crowd:
     """A crowd of copies of these arrays (the fields of `Crowd` but the last), in one piece of memory."""
-    named = dict(zip(BLOCKS, arrays, strict=True))
+    named: dict[str, NDArray[Any]] = dict(zip(BLOCKS, arrays, strict=True))
     counts = {
         "bodies": len(named["pos"]),
         "solids": len(named["order"]),
@@ -143,7 +143,7 @@ def gathered(arrays: Sequence[NDArray[Any]]) -> Crowd:
         "entries": len(named["ledger"]),
     }
     cells = LAYOUT.laid(counts, named)
-    return Crowd(*(LAYOUT.view(cells, name, array) for name, array in named.items()), cells)
+    return Crowd._make((*(LAYOUT.view(cells, name, array) for name, array in named.items()), cells))
 
 
 def contact_room(pairs: int) -> tuple[FloatArray, IntArray, FloatArray, IntArray]:

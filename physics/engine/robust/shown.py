@@ -108,7 +108,7 @@ def _settled(world: World, names: Names, pairs: NDArray[np.int32], frames: IntAr
     """Whether unknown forces are never more than equations: three for each body, against one for a disc's
     contact, two for that of two blocks, and one for friction."""
     table = world.pairs
-    blocks = (world.count[table["i"]] > 0) & (world.count[table["j"]] > 0)
+    blocks = (world.sides[table["i"]] > 0) & (world.sides[table["j"]] > 0)
     unknown = 1 + blocks.astype(np.int64) + (table["mu"] > 0)
     return bool(np.bincount(frames, unknown[pairs]).max() <= 3 * names.movable)
 
