@@ -6,10 +6,10 @@ at on a grid fine enough not to miss a passage, then its zero is found to roundi
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -140,7 +140,7 @@ def _closing(
 ) -> float | None:
     """When a gap that was looked at on a grid first closes, s: a zero between two looks, or a dip."""
     # Here, for it takes long to import and lone clusters never need it.
-    from scipy.optimize import brentq, minimize_scalar
+    from scipy.optimize import minimize_scalar
 
     def gap(t: float) -> float:
         found = np.zeros(1)
@@ -155,18 +155,24 @@ def _closing(
         step = abs(gaps[k + 1] - gaps[k - 1])
         if gaps[k] <= gaps[k - 1] and gaps[k] < gaps[k + 1] and gaps[k] < step:
             low, high = float(times[k - 1]), float(times[k + 1])
-            least = minimize_scalar(gap, bounds=(low, high), method="bounded", options={"xatol": 1e-12})
+            least: Any = minimize_scalar(gap, bounds=(low, high), method="bounded", options={"xatol": 1e-12})
             if least.fun < CLOSED:
-                return (
-                    float(brentq(gap, low, float(least.x), xtol=1e-15, rtol=1e-15)) if gap(low) > 0 else low
-                )
+                return _zero(gap, low, float(least.x)) if gap(low) > 0 else low
     if not len(below):
         return None
     k = int(below[0])
     low, high = float(times[k - 1]), float(times[k])
     if gaps[k - 1] <= 0:
         return low
-    return float(brentq(gap, low, high, xtol=1e-15, rtol=8.9e-16))
+    return _zero(gap, low, high)
+
+
+def _zero(gap: Callable[[float], float], low: float, high: float) -> float:
+    """When a gap that is open at low and closed at high closes, to rounding."""
+    from scipy.optimize import brentq
+
+    found: Any = brentq(gap, low, high, xtol=1e-15)
+    return float(found)
 
 
 def _reach(body: Body) -> float:

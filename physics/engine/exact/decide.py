@@ -172,6 +172,6 @@ def leaving(cells: FloatArray, memory: FloatArray, gone: FloatArray) -> None:
     for k in range(m.rows):
         row = row_of(m, k)
         gone[k] = 0.0
-        if row.kind <= POINT and row.status == OFF:
-            if row.rate > SLOW or demand(row, NORMAL, accelerations(m)) > WEAK * swift:
-                gone[k] = 1.0
+        idle = row.kind <= POINT and row.status == OFF
+        if idle and (row.rate > SLOW or demand(row, NORMAL, accelerations(m)) > WEAK * swift):
+            gone[k] = 1.0

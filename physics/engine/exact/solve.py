@@ -49,7 +49,8 @@ singular value that is not zero."""
 ITERATIONS = 60
 SETTLED = 1e-15
 """Share of λ by which the last iteration may still change it."""
-NORMAL, TANGENT = np.int64(0), np.int64(1)
+NORMAL: Any = np.int64(0)
+TANGENT: Any = np.int64(1)
 """Which force of a row is meant. Not plain integers, of which numba would compile a version each."""
 LARGEST = 1500
 """Unknowns: more would need hours and gigabytes; robust mode takes over long before."""
@@ -64,7 +65,7 @@ def system_of(rows: Table, inverse: FloatArray) -> System:
         for tangent in (0, 1)
         if (row["kind"] != GIVEN if tangent == 0 else row["grip"] == STICK)
     ]
-    moves = (inverse > 0).any(axis=1)
+    moves = np.any(inverse > 0, axis=1)
     touching: dict[int, list[int]] = {}
     for a, (k, _) in enumerate(labels):
         for body in (int(rows[k]["i"]), int(rows[k]["j"])):

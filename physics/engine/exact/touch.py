@@ -286,7 +286,7 @@ def all_touching(cells: FloatArray, pos: FloatArray, vel: FloatArray, reach: flo
     """Fills rows with every place where bodies touch (gaps below `reach`, m); returns how many. Where there
     is no room left, −1."""
     w = head(cells, WORLD)
-    n = np.int64(0)
+    n: Any = np.int64(0)
     for p in range(w.pairs):
         support = pair_of(w, p).support
         if support >= 0 and support_of(w, support).over:
