@@ -92,6 +92,24 @@ class System:
     couples: IntArray
 
 
+VIEWS = (
+    "rows",
+    "force",
+    "status",
+    "y",
+    "slopes",
+    "pos",
+    "vel",
+    "acc",
+    "clock",
+    "hit",
+    "spans",
+    "record",
+    "recorded",
+)
+"""Blocks that Python looks into."""
+
+
 @dataclass(frozen=True, slots=True)
 class Machine:
     """Views of one machine's memory."""
@@ -111,6 +129,16 @@ class Machine:
     spans: FloatArray
     record: FloatArray
     recorded: IntArray
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled as its memory, which everything else is a view of again when it is read."""
+        likes = {name: (getattr(self, name).dtype, getattr(self, name).shape) for name in VIEWS}
+        return _restored, (self.cells, self.system, likes)
+
+
+def _restored(cells: FloatArray, system: System, likes: dict[str, tuple[Any, tuple[int, ...]]]) -> Machine:
+    views = {name: LAYOUT.view(cells, name, np.empty(shape, dtype)) for name, (dtype, shape) in likes.items()}
+    return Machine(cells=cells, system=system, **views)
 
 
 def machine_of(
@@ -181,30 +209,8 @@ def machine_of(
     }
     cells = LAYOUT.laid(sizes, arrays)
 
-    def view(name: str) -> Any:
-        return LAYOUT.view(cells, name, arrays[name])
-
     return Machine(
-        cells,
-        view("rows"),
-        system,
-        *(
-            view(name)
-            for name in (
-                "force",
-                "status",
-                "y",
-                "slopes",
-                "pos",
-                "vel",
-                "acc",
-                "clock",
-                "hit",
-                "spans",
-                "record",
-                "recorded",
-            )
-        ),
+        cells=cells, system=system, **{name: LAYOUT.view(cells, name, arrays[name]) for name in VIEWS}
     )
 
 
