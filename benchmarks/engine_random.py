@@ -97,7 +97,7 @@ def run(seed: int, indices: range, timeout: float) -> Iterator[Outcome]:
         alive = True
         while alive and following is not None:
             pipe.send(following)
-            outcome = _answer(pipe, following, timeout)
+            outcome = _answer(worker, pipe, following, timeout)
             yield outcome
             alive, following = outcome.mode != "lost", next(todo, None)
         worker.kill()
@@ -127,12 +127,13 @@ def _work(pipe: Connection, seed: int) -> None:
         pipe.send(outcome_of(seed, pipe.recv()))
 
 
-def _answer(pipe: Connection, index: int, patience: float) -> Outcome:
+def _answer(worker: Any, pipe: Connection, index: int, patience: float) -> Outcome:
     try:
         if pipe.poll(patience):
             return pipe.recv()
     except EOFError:
-        return Outcome(index, [("crash", "the process ended")], "lost", 0, "", 0.0)
+        worker.join()
+        return Outcome(index, [("crash", f"the process ended with {worker.exitcode}")], "lost", 0, "", 0.0)
     return Outcome(index, [("timeout", f"after {patience:g} s")], "lost", 0, "", patience)
 
 
