@@ -100,18 +100,13 @@ def _reach(trajectory: Trajectory, body: Body) -> float:
 
 def _bounces(motion: Motion, label: str) -> int:
     """How often a body met something fixed fast enough to be seen to bounce."""
-    trajectory = motion.trajectory
-    count = 0
-    for event in trajectory.events:
-        if event.kind != "impact" or label not in event.bodies:
-            continue
-        other = next(one for one in event.bodies if one != label)
-        before = int(np.searchsorted(trajectory.times, event.time, side="right")) - 1
-        after = min(before + 1, len(trajectory.times) - 1)
-        column = trajectory.column(label)
-        change = trajectory.velocities[after, column, :2] - trajectory.velocities[before, column, :2]
-        count += motion.scene.body(other).fixed and float(np.hypot(*change)) > RULE.bounce
-    return count
+    return sum(
+        label in event.bodies
+        and any(motion.scene.body(one).fixed for one in event.bodies)
+        and (event.speed or 0.0) > RULE.bounce
+        for event in motion.trajectory.events
+        if event.kind == "impact"
+    )
 
 
 def touching(motion: Motion, label: str) -> NDArray[np.bool_]:

@@ -37,12 +37,14 @@ Mode = Literal["exact", "robust"]
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """Something that happened at one time (seconds): what, to whom (labels), in words."""
+    """Something that happened at one time (seconds): what, to whom (labels), in words; speed: how fast the
+    bodies of an impact closed, m/s."""
 
     time: float
     kind: EventKind
     bodies: tuple[str, ...]
     message: str
+    speed: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

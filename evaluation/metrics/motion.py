@@ -74,7 +74,8 @@ def same_outcome(pairs: Mapping[str, str], truth: Outcome, claim: Outcome) -> bo
 
 def until(motion: Motion, seconds: float) -> Motion:
     """The motion up to and including `seconds`; the whole of it if it is not longer."""
-    return replace(motion, trajectory=motion.trajectory.until(seconds))
+    cut = motion.trajectory.until(seconds)
+    return motion if cut is motion.trajectory else replace(motion, trajectory=cut)
 
 
 def _movable(sketch: Sketch) -> set[str]:

@@ -67,7 +67,9 @@ class SceneSource:
                 pos, vel = run.states(when)
                 acts, acc = run.observe(when)
                 columns = np.array([column[label] for label in names.bodies[: names.movable]])
-                accelerations[np.ix_(here, columns)] = acc[:, : names.movable]
+                accelerations[np.ix_(here, columns)] = np.nan_to_num(
+                    acc[:, : names.movable], nan=0.0, posinf=0.0, neginf=0.0
+                )
                 for act in acts:
                     _add(forces, act, names.bodies[act.body], here)
                 ledger[here] += np.column_stack(energies(run.world, names, pos, vel))
@@ -138,7 +140,8 @@ def _add(forces: dict[tuple[str, str], ForceSeries], act: Act, label: str, here:
     if known is None:
         values, points = np.zeros((len(here), 2)), np.full((len(here), 2), np.nan)
         known = forces[key] = ForceSeries(act.name, label, values, points, act.unique)
-    known.values[here] += act.values
+    # In the very frame at which a formula has no value it is left out.
+    known.values[here] += np.nan_to_num(act.values, nan=0.0, posinf=0.0, neginf=0.0)
     known.points[here] = act.points
     if not act.unique and known.unique:
         forces[key] = ForceSeries(act.name, label, known.values, known.points, False)

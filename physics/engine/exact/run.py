@@ -130,6 +130,9 @@ class ExactRun:
                 self._happen(code)
             elif code == fl.STOPPED:
                 self._stop()
+            elif code == fl.CRAWLS and not self.names.timeless:
+                # A formula that grows without bound, as 1/(t − 1) does.
+                self._stop()
             elif code == fl.CRAWLS:
                 raise TooMuch
             else:

@@ -39,7 +39,8 @@ class Teller:
                 pair = self._bodies(*sorted((int(row["i"]), int(row["j"]))))
                 met[pair] = max(met.get(pair, 0.0), float(speed))
         for pair, speed in met.items():
-            self._say(time, "impact", pair, f"{pair[0]} and {pair[1]} meet at {speed:.3g} m/s")
+            message = f"{pair[0]} and {pair[1]} meet at {speed:.3g} m/s"
+            self.events.append(Event(time, "impact", pair, message, speed))
 
     def wire(self, time: float, kind: EventKind, row: Any) -> None:
         """A wire goes slack or taut."""

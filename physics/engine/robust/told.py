@@ -17,7 +17,8 @@ def told(
     if kind == IMPACT:
         row = world.pairs[number]
         one, other = names.bodies[row["i"]], names.bodies[row["j"]]
-        return Event(time, "impact", (one, other), f"{one} and {other} meet at {size:.3g} m/s"), None
+        message = f"{one} and {other} meet at {size:.3g} m/s"
+        return Event(time, "impact", (one, other), message, size), None
     if kind in (BREAK, SLACK, TAUT, STRETCHED):
         label, bodies = names.links[number], _ends(world, names, number)
         if kind == BREAK:
