@@ -68,8 +68,8 @@ def test_random_scenes_run_soundly_and_alike_in_every_process(tmp_path: Path) ->
 
 
 def test_start_is_measured(tmp_path: Path) -> None:
-    figures = measured(tmp_path, "engine_start.py", "--starts", "1")
-    assert 0 < figures["bare_s"] < figures["cached_s"] < figures["compiled_s"]
+    figures = measured(tmp_path, "engine_start.py", "--starts", "1", "--warm")
+    assert 0 < figures["bare_s"] < figures["cached_s"]
 
 
 def test_the_judge_measures_how_deep_blocks_are_in_one_another(monkeypatch: pytest.MonkeyPatch) -> None:

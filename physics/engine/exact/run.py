@@ -152,6 +152,9 @@ class ExactRun:
         vel = np.zeros_like(pos)
         pos[:, :n] = y[:, : 3 * n].reshape(-1, n, 3)
         vel[:, :n] = y[:, 3 * n : 6 * n].reshape(-1, n, 3)
+        if self.stopped:
+            # At the very moment at which a formula has no value, neither has the rate of what it drives.
+            np.nan_to_num(vel, copy=False, nan=0.0, posinf=0.0, neginf=0.0)
         if len(self.world.courses):
             follow_frames(self.modes, times, pos, vel)
         return pos, vel
