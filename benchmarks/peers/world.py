@@ -98,7 +98,6 @@ def play(build: Build, scene: Scene, seconds: float, setting: Setting, observe: 
 @contextmanager
 def uninterrupted() -> Generator[None]:
     """No collection of garbage while time is taken."""
-    gc.collect()
     gc.disable()
     try:
         yield
