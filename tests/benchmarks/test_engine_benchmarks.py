@@ -12,6 +12,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from physics.scene import Block, Body, Disc
+from random_scenes import scene_at
+from soundness import depth
+
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 PEERS = ("pymunk", "Box2D", "pyb2d3")
 MISSING = [name for name in PEERS if find_spec(name) is None]
@@ -72,12 +76,7 @@ def test_start_is_measured(tmp_path: Path) -> None:
     assert 0 < figures["bare_s"] < figures["cached_s"]
 
 
-def test_the_judge_measures_how_deep_blocks_are_in_one_another(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.syspath_prepend(str(BENCHMARKS))
-    from physics.scene import Block, Body, Disc
-    from random_scenes import scene_at
-    from soundness import depth
-
+def test_the_judge_measures_how_deep_blocks_are_in_one_another() -> None:
     square = Body("square", Block(((-1, -1), (1, -1), (1, 1), (-1, 1))), (0.0, 0.0), 1.0, 1.0)
     ball = Body("ball", Disc(0.5), (0.0, 0.0), 1.0, 1.0)
     at_origin = np.zeros((3, 3))

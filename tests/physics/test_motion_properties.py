@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import Phase, given, reject, settings
 from hypothesis import strategies as st
+from physics_crowds import carried, number, renamed, scenes, together
 from physics_scenes import (
     G,
     box,
@@ -32,7 +33,6 @@ from physics_scenes import (
 from physics.engine import Simulation, simulate, simulate_many
 from physics.scene import Material, Scene, SceneError
 from physics.trajectory import Mode, Trajectory
-from random_scenes import carried, number, renamed, scenes, together
 
 # A failing crowd says enough as it is; to shrink one takes minutes.
 # Derandomized: what these find with other seeds is counted by benchmarks/engine_random.py.
