@@ -185,13 +185,14 @@ class Simulation:
         pos, vel = start_of(self.scene, names)
         robust = False
         for strand in both:
-            old_world, old_names = strand.run.world, strand.run.names
+            _rewind(strand, met.time)
             places, speeds = strand.run.states(np.array([met.time]))
+            strand.run.cut(met.time)
+            old_world, old_names = strand.run.world, strand.run.names
             for k in range(old_names.movable):
                 at = names.bodies.index(old_names.bodies[k])
                 pos[at], vel[at] = places[0, k], speeds[0, k]
             _carry(old_world, old_names, world, names)
-            strand.run.cut(met.time)
             strand.end = met.time
             robust = robust or isinstance(strand.run, RobustRun)
         run = (
@@ -200,6 +201,12 @@ class Simulation:
             else self._begun(world, names, pos, vel, met.time)
         )
         self.strands.append(Strand(members, [run]))
+
+
+def _rewind(strand: Strand, time: float) -> None:
+    """Drops the runs that a cluster began only after `time`, and what was noted of them: it never got there."""
+    strand.runs[:] = [strand.runs[0], *(run for run in strand.runs[1:] if run.start <= time)]
+    strand.notes[:] = [event for event in strand.notes if event.time <= time]
 
 
 def _carry(old: World, old_names: Names, new: World, names: Names) -> None:

@@ -37,7 +37,7 @@ from physics.engine.exact.machine import (
     unknown_rows,
     velocities,
 )
-from physics.engine.exact.solve import accelerate, solve
+from physics.engine.exact.solve import accelerate, across, solve
 from physics.engine.exact.tableau import E3, E5, A, C, D
 from physics.engine.rows import refresh
 from physics.engine.tables import WORLD, inverses
@@ -149,8 +149,9 @@ def project(w: Any, m: Any, t: float, y: FloatArray) -> None:
         for a in range(m.unknowns):
             row = row_of(m, owners[a])
             for k in range(3):
-                one = row.T[k] if tangent[a] else row.J[k]
-                two = row.T[3 + k] if tangent[a] else row.J[3 + k]
+                # Along the very columns of the system that was solved, friction of what slips included.
+                one = across(row, tangent[a], k)
+                two = across(row, tangent[a], 3 + k)
                 moved[row.i, k] += one * solution[a] * inverse[row.i, k]
                 moved[row.j, k] += two * solution[a] * inverse[row.j, k]
     for i in range(movable):

@@ -142,6 +142,7 @@ class ExactRun:
         """Forgets what happened after `time`; nothing can follow but reading what is left."""
         self.events[:] = [event for event in self.events if event.time <= time]
         self.modes = [mode for mode in self.modes if mode.start <= time]
+        self.world = self.modes[-1].world
         self.time = time
 
     def states(self, times: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -192,7 +192,7 @@ def _along(row: Any, tangent: int, at: int) -> float:
 
 
 @part
-def _across(row: Any, tangent: int, at: int) -> float:
+def across(row: Any, tangent: int, at: int) -> float:
     """The same of its column: what a unit of the unknown pushes, friction of a slipping contact included."""
     if tangent:
         return row.T[at]
@@ -213,7 +213,7 @@ def coupling(first: Any, tangent: int, second: Any, other: int, inverse: FloatAr
                     total += (
                         _along(first, tangent, 3 * one + a)
                         * inverse[body, a]
-                        * _across(second, other, 3 * two + a)
+                        * across(second, other, 3 * two + a)
                     )
     return total
 

@@ -104,7 +104,8 @@ def _hold(w: Any, rows: Table, pos: FloatArray, vel: FloatArray, rise: float) ->
         row.bound = 0.0
         if row.kind == GIVEN or row.gap > TOUCHING:
             continue
-        if row.kind >= PIN_X or (row.kind == CORD and abs(row.rate) <= APPROACH):
+        if row.kind >= PIN_X or row.rate <= APPROACH:
+            # What is shut stays so: holding one contact must not push another in.
             row.bound, row.along = 1.0, 0.0
         elif row.rate > APPROACH and row.rate**2 < -2.0 * row.press * rise and row.e < 1.0:
             row.bound, row.along = 2.0, 0.0
