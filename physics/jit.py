@@ -2,11 +2,11 @@
 
 Numba looks only at the file of a function to tell whether machine code on disk is stale, not at the
 files of the functions that it calls, which are compiled into it. So kernels are kept in a directory
-that is named by a digest of every kernel module: change one, and all are compiled anew. Directories
-of other digests are deleted when the first kernel is made.
+that is named by a digest of every module whose code may be in them: change one, and all are compiled
+anew. Directories of other digests are deleted when the first kernel is made.
 
-Kernel modules are physics/jit.py, physics/formula/kernel.py and physics/engine/**/*.py. A kernel may
-call and take constants from those alone.
+A kernel may call and take constants from physics/jit.py, physics/formula/kernel.py, physics/engine/*.py
+and the modules beside its own alone: engine/exact and engine/robust know nothing of each other.
 """
 
 from __future__ import annotations
@@ -53,10 +53,11 @@ def part(function: F) -> F:
 
 
 @cache
-def digest() -> str:
-    """Of the sources of all kernel modules, twelve hexadecimal digits."""
+def digest(room: Path) -> str:
+    """Of the sources of all modules that a kernel in a directory may be made of, twelve hexadecimal digits."""
     physics = Path(__file__).parent
-    modules = [Path(__file__), physics / "formula" / "kernel.py", *sorted((physics / "engine").rglob("*.py"))]
+    common = {Path(__file__), physics / "formula" / "kernel.py", *(physics / "engine").glob("*.py")}
+    modules = sorted(common | set(room.glob("*.py")))
     hashed = sha256()
     for module in modules:
         hashed.update(module.name.encode() + b"\0" + module.read_bytes() + b"\0")
@@ -66,9 +67,11 @@ def digest() -> str:
 class _Digested:
     """A cache locator of numba's, one directory deeper."""
 
+    _py_file: str
+
     def get_cache_path(self) -> str:
-        found = Path(super().get_cache_path())  # pyright: ignore[reportAttributeAccessIssue]: mixed into numba's
-        return str(found / f"{PREFIX}{digest()}")
+        located = cast(Any, super())  # one of numba's, which this is mixed into
+        return str(Path(located.get_cache_path()) / f"{PREFIX}{digest(Path(self._py_file).parent)}")
 
 
 class _KernelCacheImpl(CompileResultCacheImpl):

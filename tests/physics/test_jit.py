@@ -18,13 +18,13 @@ import physics.jit
 
 INNER = "from physics.jit import kernel\n@kernel\ndef inner(x: float) -> float:\n    return {factor} * x\n"
 OUTER = (
-    "from physics.jit import kernel\nfrom physics.engine.exact.inner import inner\n"
+    "from physics.jit import kernel\nfrom physics.engine.inner import inner\n"
     "@kernel\ndef outer(x: float) -> float:\n    return inner(x) + 1\n"
 )
 STRANGER = "import numba\n@numba.njit(cache=True)\ndef strange(x):\n    return x + 1\n"
 RUN = """
 import json
-from physics.formula.kernel import outer
+from physics.engine.exact.outer import outer
 from stranger import strange
 value = outer(10.0)
 strange(1.0)
@@ -40,8 +40,9 @@ def package(tmp_path: Path) -> Path:
     for folder in ("physics", "physics/formula", "physics/engine", "physics/engine/exact"):
         (tmp_path / folder / "__init__.py").touch()
     shutil.copy(physics.jit.__file__, tmp_path / "physics" / "jit.py")
-    (tmp_path / "physics/formula/kernel.py").write_text(OUTER)
-    (tmp_path / "physics/engine/exact/inner.py").write_text(INNER.format(factor=2))
+    (tmp_path / "physics/engine/exact/outer.py").write_text(OUTER)
+    (tmp_path / "physics/formula/kernel.py").touch()
+    (tmp_path / "physics/engine/inner.py").write_text(INNER.format(factor=2))
     (tmp_path / "stranger.py").write_text(STRANGER)
     return tmp_path
 
@@ -75,7 +76,7 @@ def test_machine_code_is_compiled_once_and_found_by_the_next_process(package: Pa
 def test_a_change_in_a_called_file_compiles_the_callers_anew_and_leaves_nothing_stale(package: Path) -> None:
     assert run(package) == (21.0, 0)
     before = kept_in(package)
-    (package / "physics/engine/exact/inner.py").write_text(INNER.format(factor=3))
+    (package / "physics/engine/inner.py").write_text(INNER.format(factor=3))
     assert run(package) == (31.0, 0)
     assert run(package) == (31.0, 1)
     after = kept_in(package)
@@ -85,12 +86,12 @@ def test_a_change_in_a_called_file_compiles_the_callers_anew_and_leaves_nothing_
 
 def test_a_source_that_changes_back_changes_the_result_back(package: Path) -> None:
     for factor, value in ((2, 21.0), (3, 31.0), (2, 21.0)):
-        (package / "physics/engine/exact/inner.py").write_text(INNER.format(factor=factor))
+        (package / "physics/engine/inner.py").write_text(INNER.format(factor=factor))
         assert run(package)[0] == value
 
 
 def test_where_the_package_cannot_be_written_to_the_user_s_cache_is_used(package: Path) -> None:
-    for folder in ("formula", "engine/exact"):  # what root cannot write into either: a file
+    for folder in ("engine", "engine/exact"):  # what root cannot write into either: a file
         shutil.rmtree(package / "physics" / folder / "__pycache__", ignore_errors=True)
         (package / "physics" / folder / "__pycache__").touch()
     assert run(package) == (21.0, 0)
@@ -100,7 +101,7 @@ def test_where_the_package_cannot_be_written_to_the_user_s_cache_is_used(package
 
 
 def test_where_nothing_can_be_written_to_kernels_still_run(package: Path) -> None:
-    for place in ("physics/formula/__pycache__", "physics/engine/exact/__pycache__", "cache"):
+    for place in ("physics/engine/__pycache__", "physics/engine/exact/__pycache__", "cache"):
         (package / place).touch()
     assert run(package) == (21.0, 0)
     assert run(package) == (21.0, 0)

@@ -37,9 +37,9 @@ from physics.engine.exact.machine import (
     unknown_rows,
     velocities,
 )
-from physics.engine.exact.solve import accelerate, across, solve
+from physics.engine.exact.solve import accelerate, solve
 from physics.engine.exact.tableau import E3, E5, A, C, D
-from physics.engine.rows import refresh
+from physics.engine.rows import POINT, SLIDE, refresh
 from physics.engine.tables import WORLD, inverses
 from physics.jit import kernel, part
 from sketch.ink import FloatArray
@@ -130,6 +130,7 @@ def project(w: Any, m: Any, t: float, y: FloatArray) -> None:
     movable = m.movable
     unpack(y, movable, pos, vel)
     forces.follow(w, t, pos, vel)
+    _ease(m, True)
     owners, tangent, goal, solution = unknown_rows(m), tangents(m), given(m), found(m)
     for turn in range(2 if m.unknowns > 0 else 0):
         for k in range(m.rows):
@@ -149,15 +150,28 @@ def project(w: Any, m: Any, t: float, y: FloatArray) -> None:
         for a in range(m.unknowns):
             row = row_of(m, owners[a])
             for k in range(3):
-                # Along the very columns of the system that was solved, friction of what slips included.
-                one = across(row, tangent[a], k)
-                two = across(row, tangent[a], 3 + k)
+                one = row.T[k] if tangent[a] else row.J[k]
+                two = row.T[3 + k] if tangent[a] else row.J[3 + k]
                 moved[row.i, k] += one * solution[a] * inverse[row.i, k]
                 moved[row.j, k] += two * solution[a] * inverse[row.j, k]
+    _ease(m, False)
     for i in range(movable):
         for a in range(3):
             y[3 * i + a] = pos[i, a]
             y[3 * (movable + i) + a] = vel[i, a]
+
+
+@part
+def _ease(m: Any, frictionless: bool) -> None:
+    """Takes the friction of what slips out of the system for a while, and puts it back: a correction is no motion,
+    and what slips has no say in it."""
+    for k in range(m.rows):
+        row = row_of(m, k)
+        if row.kind <= POINT and row.grip == SLIDE:
+            if frictionless:
+                row.bound, row.sigma = row.sigma, 0.0
+            else:
+                row.sigma, row.bound = row.bound, 0.0
 
 
 @part
