@@ -65,6 +65,9 @@ SHORTEST = 1e-13
 """s (a share of the time above 1 s): a step that is no step."""
 SAMPLES = 256
 """Places within a step at which gaps are looked at, at most."""
+VERGE = 1e-3
+"""Share of the way between two such places: so near the step's ends it is looked as well, since there the
+slope tells whether a gap falls at first, or rises at last, and so may close and open unseen."""
 
 
 @kernel
@@ -258,9 +261,9 @@ def _meeting(w: Any, m: Any, h: float, most: float) -> tuple[float, int]:
         return 2.0, -1
     scratch = slope(m, 1)
     first, pair = 2.0, -1
-    last = 0.0
-    for s in range(1, samples + 1):
-        x = s / samples * most
+    older, last = 0.0, 0.0
+    for s in range(samples + 2):
+        x = most * _place(s, samples)
         between(dense_of(m), x, scratch)
         unpack(scratch, m.movable, poses(m), velocities(m))
         for c in range(n):
@@ -269,10 +272,8 @@ def _meeting(w: Any, m: Any, h: float, most: float) -> tuple[float, int]:
             at = 2.0
             if gap < -LENGTH:
                 at = _meets(w, m, p, last, x)
-            elif (
-                gaps(m)[c] < olds(m)[c] and gaps(m)[c] < gap and gaps(m)[c] < TOUCHING + abs(gap - olds(m)[c])
-            ):
-                at = _grazes(w, m, p, max(last - most / samples, 0.0), x)
+            elif s > 0 and _may_dip(olds(m)[c], gaps(m)[c], gap, last - older, x - last):
+                at = _grazes(w, m, p, older, x)
             if at < first:
                 first, pair = at, p
             olds(m)[c] = gaps(m)[c]
@@ -281,8 +282,27 @@ def _meeting(w: Any, m: Any, h: float, most: float) -> tuple[float, int]:
             unpack(scratch, m.movable, poses(m), velocities(m))
         if pair >= 0:
             return first, pair
-        last = x
+        older, last = last, x
     return 2.0, -1
+
+
+@part
+def _place(s: int, samples: int) -> float:
+    """Where to look the s-th time, of samples + 2 times, as a share of the step."""
+    if s == 0:
+        return VERGE / samples
+    if s < samples:
+        return s / samples
+    return 1.0 - VERGE / samples if s == samples else 1.0
+
+
+@part
+def _may_dip(before: float, here: float, after: float, back: float, on: float) -> bool:
+    """Whether a gap that is least of three at the middle one may close about it: were it convex, it would stay
+    above the two lines through neighbours. back, on: how far it is to either."""
+    if here >= before or here >= after:
+        return False
+    return here - max((before - here) / back * on, (after - here) / on * back) < TOUCHING
 
 
 @part

@@ -350,15 +350,16 @@ class ExactRun:
         if code == fl.HAPPENED:
             machine = self.modes[-1].machine
             de.accelerated(self.world.cells, machine.cells, self.time)
-            rows, links = 3 * len(machine.rows), len(self.world.links)
+            # A copy: the machine's own rows tell what held until now.
+            self.rows = machine.rows.copy()
+            rows, links = 3 * len(self.rows), len(self.world.links)
             for k in np.flatnonzero(machine.hit):
                 if k < rows:
-                    self._row_event(machine.rows[k // 3], int(k % 3))
+                    self._row_event(self.rows[k // 3], int(k % 3))
                 elif k < rows + links:
                     self._break_given(int(k) - rows)
                 else:
                     self._support_event(*divmod(int(k) - rows - links, 2))
-            self.rows = machine.rows.copy()
         self._settle()
 
     def _row_event(self, row: Any, which: int) -> None:
