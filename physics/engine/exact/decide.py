@@ -23,7 +23,7 @@ from physics.engine.world import IntArray, Table, World
 from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
-SLOW = 1e-9
+SLOW = 1e-8
 """m/s: a slower rate or slip is none."""
 FORCE = 1e-10
 """Share of the greatest force by which a force may be wrong."""

@@ -281,9 +281,23 @@ def _meeting(w: Any, m: Any, h: float, most: float) -> tuple[float, int]:
             between(dense_of(m), x, scratch)
             unpack(scratch, m.movable, poses(m), velocities(m))
         if pair >= 0:
-            return first, pair
+            return _earliest(w, m, n, last if first > last else older, first, pair)
         older, last = last, x
     return 2.0, -1
+
+
+@part
+def _earliest(w: Any, m: Any, n: int, low: float, first: float, pair: int) -> tuple[float, int]:
+    """The first of all candidates to meet, given that one does at share `first` and that none has at `low`: another
+    may be in the midst of a dip by then."""
+    looking = True
+    while looking:
+        looking = False
+        for c in range(n):
+            p = candidates(m)[c]
+            if p != pair and _gap(w, m, p, touched(m, p), first) < -LENGTH:
+                first, pair, looking = _meets(w, m, p, low, first), p, True
+    return first, pair
 
 
 @part

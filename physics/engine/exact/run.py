@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from physics.engine.acts import Act
 from physics.engine.exact import decide as de
@@ -42,6 +43,8 @@ from physics.engine.rows import (
 from physics.engine.world import PIN, WIRE, Names, Table, World, copied
 from physics.trajectory import Event
 from sketch.ink import FloatArray
+
+BoolArray = NDArray[np.bool_]
 
 ENDLESS = 1000
 """Events within `ENDLESS_TIME` after which exact mode gives up: it would go on for ever."""
@@ -291,28 +294,34 @@ class ExactRun:
         closed = (rows["gap"] <= TOUCHING) & (rows["kind"] < GIVEN)
         approach = closed & (rows["kind"] <= CORD) & (rows["rate"] < -st.APPROACH)
         pins = (rows["kind"] >= PIN_X) & (rows["kind"] < GIVEN) & (np.abs(rows["rate"]) > st.APPROACH)
-        # Opening so slowly that it may be pressed shut again at once.
-        slow = closed & (rows["kind"] <= CORD) & (rows["rate"] > st.APPROACH) & (rows["rate"] < SLUGGISH)
-        if not (approach.any() or pins.any() or slow.any()):
-            return
-        for row in rows[approach & (rows["kind"] <= POINT)]:
-            self._release(int(row["i"]))
-            self._release(int(row["j"]))
-        free = rows.copy()
-        free["status"][approach | slow] = OFF
-        machine = self._machine(free)
-        de.accelerated(self.world.cells, machine.cells, self.time)
-        de.pressing(machine.cells)
-        rows["press"], rows["shut"] = machine.rows["press"], 0
         struck = np.zeros(len(rows))
         lately = sum(when > self.time - CROWD_TIME for when in self.lately)
         # A wire and a floor may hand a body to and fro for ever: the faster they do, the higher it must rise.
         rise = st.RISE * 10.0 ** min(lately // RATTLE, 4)
-        heat = st.strike(
-            self.world.cells, rows, self.pos, self.vel, rise, lately > CROWD, np.zeros_like(self.vel), struck
-        )
-        self.works[0] += heat
-        self.tell.impacts(self.time, rows, struck)
+        if approach.any() or pins.any():
+            for row in rows[approach & (rows["kind"] <= POINT)]:
+                self._release(int(row["i"]))
+                self._release(int(row["j"]))
+            self._press(rows, approach)
+            rows["shut"] = 0
+            self.works[0] += st.strike(
+                self.world.cells,
+                rows,
+                self.pos,
+                self.vel,
+                rise,
+                lately > CROWD,
+                np.zeros_like(self.vel),
+                struck,
+            )
+            self.tell.impacts(self.time, rows, struck)
+        # Opening so slowly that it may be pressed shut again at once.
+        slow = closed & (rows["kind"] <= CORD) & (rows["rate"] > st.APPROACH) & (rows["rate"] < SLUGGISH)
+        if slow.any():
+            self._press(rows, slow)
+            self.works[0] += st.hold(self.world.cells, rows, self.pos, self.vel, rise)
+        elif not (approach.any() or pins.any()):
+            return
         for k in np.flatnonzero(closed & (rows["kind"] == CORD)):
             row = rows[k]
             if row["status"] == OFF and approach[k]:
@@ -323,6 +332,15 @@ class ExactRun:
             de.take_grip(rows[k])
             if rows[k]["shut"]:
                 self._note_shut(rows[k], float(struck[k]))
+
+    def _press(self, rows: Table, free: BoolArray) -> None:
+        """Notes how the gaps of rows accelerate while some of them do not hold."""
+        without = rows.copy()
+        without["status"][free] = OFF
+        machine = self._machine(without)
+        de.accelerated(self.world.cells, machine.cells, self.time)
+        de.pressing(machine.cells)
+        rows["press"] = machine.rows["press"]
 
     def _note_shut(self, row: Any, speed: float) -> None:
         """When the rebounds that are left out would have ended: flights of 2 e v / a, each e times the last."""

@@ -88,16 +88,17 @@ def strike(
         _sweep(w, rows, vel)
         if kinetic(w, vel) > start * (1.0 + 1e-12):
             _calm(w, rows, vel, before, start)
-    _hold(w, rows, pos, vel, rise)
     refresh_table(rows, pos, vel)
     return energy - kinetic(w, vel)
 
 
-@part
-def _hold(w: Any, rows: Table, pos: FloatArray, vel: FloatArray, rise: float) -> None:
-    """Keeps shut, or taut, what would open by less than `rise` before it is pressed shut again: two corners that
-    lift each other, or two wires that slacken each other, would go on without end."""
-    refresh_table(rows, pos, vel)
+@kernel
+def hold(cells: FloatArray, rows: Table, pos: FloatArray, vel: FloatArray, rise: float) -> float:
+    """Keeps shut, or taut, what would open by less than `rise` (m) before it is pressed shut again: two corners
+    that lift each other, or two wires that slacken each other, would go on without end. Changes `vel`; returns the
+    heat, J. rows[k].press must be known for those that open slowly."""
+    w = head(cells, WORLD)
+    energy = kinetic(w, vel)
     needed = False
     for k in range(len(rows)):
         row = rows[k]
@@ -112,6 +113,8 @@ def _hold(w: Any, rows: Table, pos: FloatArray, vel: FloatArray, rise: float) ->
             needed = True
     if needed:
         _sweep(w, rows, vel)
+        refresh_table(rows, pos, vel)
+    return energy - kinetic(w, vel)
 
 
 @part
