@@ -36,7 +36,15 @@ CLOSE, OPEN, SLIP, HOLD = 1, 2, 3, 4
 
 
 class Undecided(ArithmeticError):
-    """No set of rows was found that fits: more contacts, or tighter jams, than this method is made for."""
+    """No set of rows was found that fits: more contacts, or tighter jams, than this method is made for.
+
+    jam: the row (a number) that slips and can neither hold nor leave, as in Painlevé's paradox: its friction
+    would press it the harder the more it is pressed; −1 where it is none.
+    """
+
+    def __init__(self, jam: int = -1) -> None:
+        super().__init__()
+        self.jam = jam
 
 
 def decide(world: World, rows: Table, make: Callable[[Table], Machine], time: float) -> Machine:
@@ -70,7 +78,7 @@ def decide(world: World, rows: Table, make: Callable[[Table], Machine], time: fl
         state = rows["status"].tobytes() + rows["grip"].tobytes() + np.sign(rows["sigma"]).tobytes()
         if state in seen:
             if orderly:
-                raise Undecided
+                raise Undecided(k if what in (CLOSE, OPEN) and row["grip"] == SLIDE else -1)
             orderly = True
             seen.clear()
         seen.add(state)

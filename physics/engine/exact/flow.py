@@ -153,7 +153,7 @@ def _first(w: Any, m: Any, t: float, h: float) -> tuple[int, float]:
         hits(m)[k] = 0
     for k in range(m.watched):
         if after(m)[k] < -1.0:
-            when = _crossing(w, m, k, t, h)
+            when = _falls(w, m, k, t, h, _aim(m, k), 0.0, 1.0)
             if when < share - 1e-12:
                 for q in range(k):
                     hits(m)[q] = 0
@@ -166,7 +166,7 @@ def _first(w: Any, m: Any, t: float, h: float) -> tuple[int, float]:
             if when < share - 1e-12:
                 code, share = SWITCHED, when
             break
-    met, pair = _meeting(w, m, h, share)
+    met, pair = _meeting(w, m, t, h, share)
     if met < share - 1e-12:
         now[AT] = pair
         code, share = MET, met
@@ -177,34 +177,50 @@ def _first(w: Any, m: Any, t: float, h: float) -> tuple[int, float]:
 
 
 @part
-def _look(w: Any, m: Any, k: int, t: float, h: float, x: float) -> float:
-    """Watched function k at share x of the step, by the dense output. Uses `newest(m)`'s scratch twin."""
-    scratch = slope(m, 1)
-    now = clock(m)
-    between(dense_of(m), x, scratch)
-    derive(w, m, t + x * h, scratch, slope(m, 2))
-    watch(w, m, now[GREATEST], after(m))
-    return after(m)[k]
+def _aim(m: Any, k: int) -> float:
+    """What watched function k must fall below for something to have happened: zero, or its tolerance where it
+    begins at zero."""
+    return 0.0 if before(m)[k] > 1.0 else -1.0
 
 
 @part
-def _crossing(w: Any, m: Any, k: int, t: float, h: float) -> float:
-    """The share of the step at which watched function k crosses zero (or its tolerance, where it begins
-    at zero): the Illinois method. Leaves after(m) as it was."""
-    aim = 0.0 if before(m)[k] > 1.0 else -1.0
-    low, high = 0.0, 1.0
-    above, below = min(before(m)[k], 1e15) - aim, after(m)[k] - aim
-    if above <= 0.0:
-        return 0.0
-    end = kept(m)
-    for q in range(m.watched):
-        end[q] = after(m)[q]
+def _look(w: Any, m: Any, what: int, t: float, h: float, x: float) -> float:
+    """A function of the motion at share x of the step, by the dense output: the watched function `what`, or, from
+    m.watched on, the gap of a pair in units of `LENGTH`."""
+    scratch = slope(m, 1)
+    between(dense_of(m), x, scratch)
+    if what >= m.watched:
+        p = what - m.watched
+        unpack(scratch, m.movable, poses(m), velocities(m))
+        return pair_gap(w, m, p, touched(m, p)) / LENGTH
+    derive(w, m, t + x * h, scratch, slope(m, 2))
+    watch(w, m, clock(m)[GREATEST], kept(m))
+    return kept(m)[what]
+
+
+@part
+def _falls(w: Any, m: Any, what: int, t: float, h: float, aim: float, low: float, high: float) -> float:
+    """The share between low and high at which a function falls below `aim`, where it is at high: the Illinois
+    method. Where it begins below and rises first (a bounce), the beginning is passed by halving towards it."""
+    above, below = _look(w, m, what, t, h, low) - aim, _look(w, m, what, t, h, high) - aim
+    if above <= 1.0:
+        start = low
+        x = high
+        for _ in range(60):
+            x = start + 0.5 * (x - start)
+            above = _look(w, m, what, t, h, x) - aim
+            if above > 0.0:
+                break
+            high, below = x, above
+        if above <= 0.0:
+            return high
+        low = x
     side = 0
     for _ in range(80):
         x = (low * below - high * above) / (below - above)
         if not low < x < high or high - low < 1e-15:
             break
-        value = _look(w, m, k, t, h, x) - aim
+        value = _look(w, m, what, t, h, x) - aim
         if value > 0.0:
             low, above = x, value
             if side == 1:
@@ -217,8 +233,6 @@ def _crossing(w: Any, m: Any, k: int, t: float, h: float) -> float:
             side = -1
             if value == 0.0:
                 break
-    for q in range(m.watched):
-        after(m)[q] = end[q]
     return high
 
 
@@ -245,16 +259,7 @@ def _switching(w: Any, m: Any, t: float, h: float) -> float:
 
 
 @part
-def _gap(w: Any, m: Any, p: int, joined: bool, x: float) -> float:
-    """The gap of pair p at share x of the step, m."""
-    scratch = slope(m, 1)
-    between(dense_of(m), x, scratch)
-    unpack(scratch, m.movable, poses(m), velocities(m))
-    return pair_gap(w, m, p, joined)
-
-
-@part
-def _meeting(w: Any, m: Any, h: float, most: float) -> tuple[float, int]:
+def _meeting(w: Any, m: Any, t: float, h: float, most: float) -> tuple[float, int]:
     """(share of the step at which two bodies first meet, at most `most`; the pair); (2, −1) if none do."""
     n, samples = _candidates(w, m, h)
     if n == 0:
@@ -271,9 +276,9 @@ def _meeting(w: Any, m: Any, h: float, most: float) -> tuple[float, int]:
             gap = pair_gap(w, m, p, touched(m, p))
             at = 2.0
             if gap < -LENGTH:
-                at = _meets(w, m, p, last, x)
+                at = _falls(w, m, m.watched + p, t, h, 0.0, last, x)
             elif s > 0 and _may_dip(olds(m)[c], gaps(m)[c], gap, last - older, x - last):
-                at = _grazes(w, m, p, older, x)
+                at = _grazes(w, m, p, t, h, older, x)
             if at < first:
                 first, pair = at, p
             olds(m)[c] = gaps(m)[c]
@@ -281,13 +286,15 @@ def _meeting(w: Any, m: Any, h: float, most: float) -> tuple[float, int]:
             between(dense_of(m), x, scratch)
             unpack(scratch, m.movable, poses(m), velocities(m))
         if pair >= 0:
-            return _earliest(w, m, n, last if first > last else older, first, pair)
+            return _earliest(w, m, n, t, h, last if first > last else older, first, pair)
         older, last = last, x
     return 2.0, -1
 
 
 @part
-def _earliest(w: Any, m: Any, n: int, low: float, first: float, pair: int) -> tuple[float, int]:
+def _earliest(
+    w: Any, m: Any, n: int, t: float, h: float, low: float, first: float, pair: int
+) -> tuple[float, int]:
     """The first of all candidates to meet, given that one does at share `first` and that none has at `low`: another
     may be in the midst of a dip by then."""
     looking = True
@@ -295,8 +302,8 @@ def _earliest(w: Any, m: Any, n: int, low: float, first: float, pair: int) -> tu
         looking = False
         for c in range(n):
             p = candidates(m)[c]
-            if p != pair and _gap(w, m, p, touched(m, p), first) < -LENGTH:
-                first, pair, looking = _meets(w, m, p, low, first), p, True
+            if p != pair and _look(w, m, m.watched + p, t, h, first) < -1.0:
+                first, pair, looking = _falls(w, m, m.watched + p, t, h, 0.0, low, first), p, True
     return first, pair
 
 
@@ -352,59 +359,18 @@ def _candidates(w: Any, m: Any, h: float) -> tuple[int, int]:
 
 
 @part
-def _meets(w: Any, m: Any, p: int, low: float, high: float) -> float:
-    """The share between low and high at which the gap of pair p closes; it is closed at high.
-
-    Where it begins closed and opens (a bounce), the beginning is passed by halving towards it.
-    """
-    joined = touched(m, p)
-    below = _gap(w, m, p, joined, high)
-    above = _gap(w, m, p, joined, low)
-    if above <= LENGTH:
-        x = high
-        for _ in range(60):
-            x = low + 0.5 * (x - low)
-            above = _gap(w, m, p, joined, x)
-            if above > 0.0:
-                break
-            high, below = x, above
-        if above <= 0.0:
-            return high
-        low = x
-    side = 0
-    for _ in range(80):
-        x = (low * below - high * above) / (below - above)
-        if not low < x < high or high - low < 1e-15:
-            break
-        value = _gap(w, m, p, joined, x)
-        if value > 0.0:
-            low, above = x, value
-            if side == 1:
-                below *= 0.5
-            side = 1
-        else:
-            high, below = x, value
-            if side == -1:
-                above *= 0.5
-            side = -1
-            if value == 0.0:
-                break
-    return high
-
-
-@part
-def _grazes(w: Any, m: Any, p: int, low: float, high: float) -> float:
-    """The same where the gap is open at low and at high and least in between; 2 if it stays open."""
-    joined = touched(m, p)
-    start = low
+def _grazes(w: Any, m: Any, p: int, t: float, h: float, low: float, high: float) -> float:
+    """The share at which pair p meets where its gap is open at low and at high and least in between (golden
+    section); 2 if it stays open."""
+    start, what = low, m.watched + p
     golden = 0.6180339887498949
     for _ in range(60):
         one, two = high - golden * (high - low), low + golden * (high - low)
-        first, second = _gap(w, m, p, joined, one), _gap(w, m, p, joined, two)
-        if first < -LENGTH:
-            return _meets(w, m, p, start, one)
-        if second < -LENGTH:
-            return _meets(w, m, p, start, two)
+        first, second = _look(w, m, what, t, h, one), _look(w, m, what, t, h, two)
+        if first < -1.0:
+            return _falls(w, m, what, t, h, 0.0, start, one)
+        if second < -1.0:
+            return _falls(w, m, what, t, h, 0.0, start, two)
         if high - low < 1e-9:
             break
         if first < second:
@@ -412,6 +378,15 @@ def _grazes(w: Any, m: Any, p: int, low: float, high: float) -> float:
         else:
             low = one
     return 2.0
+
+
+@part
+def _left(w: Any, m: Any, watched: int, pair: int, aim: float) -> float:
+    """How far above its aim the state just reached has a watched function, or a pair's gap (pair >= 0)."""
+    if pair >= 0:
+        return pair_gap(w, m, pair, touched(m, pair)) / LENGTH
+    watch(w, m, clock(m)[GREATEST], after(m))
+    return after(m)[watched] - aim
 
 
 @part
@@ -427,15 +402,11 @@ def _sharpen(
     """Repeats the step with the length at which it happens, until what crosses zero is zero there by the
     step itself. Leaves newest(m) and dense_of(m) for that step; returns its share."""
     watched = -1
-    now = clock(m)
     for k in range(m.watched):
         if hits(m)[k] and (watched < 0 or before(m)[k] > before(m)[watched]):
             watched = k
-    aim = 0.0
-    if watched >= 0 and before(m)[watched] <= 1.0:
-        aim = -1.0
-    pair = int(now[AT])
-    joined = code == MET and touched(m, pair)
+    aim = _aim(m, watched) if watched >= 0 else 0.0
+    pair = int(clock(m)[AT]) if code == MET else -1
     hold = max(share, 1e-15)
     other, value_other = -1.0, 0.0
     x = hold
@@ -443,22 +414,14 @@ def _sharpen(
         step(w, m, t, x * h, accuracy)
         if code == SWITCHED or hold <= 1e-15:
             break
-        if code == MET:
-            value = pair_gap(w, m, pair, joined) / LENGTH
-        else:
-            watch(w, m, now[GREATEST], after(m))
-            value = after(m)[watched] - aim
+        value = _left(w, m, watched, pair, aim)
         if abs(value) < 1e-7:
             break
         if other < 0.0:
             # The first slope from a neighbour a thousandth of the step away, by a true step too.
             other = x * (1.0 - 1e-3)
             step(w, m, t, other * h, accuracy)
-            if code == MET:
-                value_other = pair_gap(w, m, pair, joined) / LENGTH
-            else:
-                watch(w, m, now[GREATEST], after(m))
-                value_other = after(m)[watched] - aim
+            value_other = _left(w, m, watched, pair, aim)
         if value == value_other:
             break
         better = x - value * (x - other) / (value - value_other)

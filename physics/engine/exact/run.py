@@ -223,8 +223,10 @@ class ExactRun:
         rows = rows[~((rows["kind"] <= POINT) & (rows["rate"] > st.APPROACH))]
         try:
             machine = de.decide(self.world, rows, self._machine, self.time)
-        except de.Undecided:
-            raise TooMuch from None
+        except de.Undecided as undecided:
+            self._unjam(rows, undecided.jam)
+            self._settle()
+            return
         if projected(self.world.cells, machine.cells):
             self._adopt(machine)
             machine = self._machine(rows)
@@ -342,6 +344,17 @@ class ExactRun:
         de.pressing(machine.cells)
         rows["press"] = machine.rows["press"]
 
+    def _unjam(self, rows: Table, jam: int) -> None:
+        """Stops the slip that no forces can go with. Raises TooMuch where that is not what is wrong."""
+        heat = st.unjam(self.world.cells, rows, self.pos, self.vel, jam) if jam >= 0 else np.nan
+        if not heat >= 0:
+            raise TooMuch
+        self._count()
+        self.works[0] += heat
+        for row in rows[rows["kind"] <= POINT]:
+            de.take_grip(row)
+        self.rows = rows
+
     def _note_shut(self, row: Any, speed: float) -> None:
         """When the rebounds that are left out would have ended: flights of 2 e v / a, each e times the last."""
         e, press = float(row["e"]), -float(row["press"])
@@ -360,10 +373,7 @@ class ExactRun:
 
     def _happen(self, code: int) -> None:
         """One event: marks what it changes, then settles."""
-        self.lately = [when for when in self.lately if when > self.time - ENDLESS_TIME]
-        self.lately.append(self.time)
-        if sum(when > self.time - 1e-12 for when in self.lately) > STUCK or len(self.lately) > ENDLESS:
-            raise TooMuch
+        self._count()
         self.world = copied(self.world, self.names.movable)
         if code == fl.HAPPENED:
             machine = self.modes[-1].machine
@@ -379,6 +389,13 @@ class ExactRun:
                 else:
                     self._support_event(*divmod(int(k) - rows - links, 2))
         self._settle()
+
+    def _count(self) -> None:
+        """Counts an event of this moment. Raises TooMuch where they would never end."""
+        self.lately = [when for when in self.lately if when > self.time - ENDLESS_TIME]
+        self.lately.append(self.time)
+        if sum(when > self.time - 1e-12 for when in self.lately) > STUCK or len(self.lately) > ENDLESS:
+            raise TooMuch
 
     def _row_event(self, row: Any, which: int) -> None:
         if which == 0 and row["status"] == ON:

@@ -14,6 +14,8 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
+import numpy as np
+
 from physics.engine.cells import head
 from physics.engine.exact.touch import TOUCHING
 from physics.engine.rows import CORD, GIVEN, PIN_X, POINT, refresh, refresh_table
@@ -119,7 +121,8 @@ def hold(cells: FloatArray, rows: Table, pos: FloatArray, vel: FloatArray, rise:
 
 @part
 def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
-    """Impulses of the rows that take part, one after another, until none changes any more."""
+    """Impulses of the rows that take part (bound 1), one after another, until none changes any more. Bound 2: may
+    pull as well; bound 3: may pull, and rub as hard as it takes."""
     inverse = inverses(w)
     for k in range(len(rows)):
         rows[k].force = rows[k].rub = 0.0
@@ -151,7 +154,7 @@ def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
                     give += row.T[a] ** 2 * inverse[i, a] + row.T[3 + a] ** 2 * inverse[j, a]
                     rate += row.T[a] * vel[i, a] + row.T[3 + a] * vel[j, a]
                 if give > 0.0:
-                    bound = row.mu * row.force
+                    bound = row.mu * row.force if row.bound < 3.0 else 1e300
                     total = min(max(row.rub - rate / give, -bound), bound)
                     change = total - row.rub
                     row.rub = total
@@ -161,6 +164,26 @@ def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
                     moved = max(moved, abs(change) * give)
         if moved <= SETTLED * speed:
             return
+
+
+@kernel
+def unjam(cells: FloatArray, rows: Table, pos: FloatArray, vel: FloatArray, jam: int) -> float:
+    """Stops the slip of a row that can neither hold nor leave, by an impulse without an impact (Painlevé 1895; Génot
+    and Brogliato 1999). Changes `vel`; returns the heat, J: NaN where only a pull would do it.
+
+    The rubbing may leave friction's cone a little where the blow sets another contact slipping: rigid bodies have no
+    better answer there."""
+    w = head(cells, WORLD)
+    energy = kinetic(w, vel)
+    refresh_table(rows, pos, vel)
+    for k in range(len(rows)):
+        row = rows[k]
+        shut = row.gap <= TOUCHING and row.kind != GIVEN and (row.kind >= PIN_X or row.rate <= APPROACH)
+        row.bound, row.along = (1.0 if shut else 0.0), 0.0
+    rows[jam].bound = 3.0
+    _sweep(w, rows, vel)
+    refresh_table(rows, pos, vel)
+    return energy - kinetic(w, vel) if rows[jam].force > 0.0 else np.nan
 
 
 @part
