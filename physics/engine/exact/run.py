@@ -317,12 +317,7 @@ class ExactRun:
                 struck,
             )
             self.tell.impacts(self.time, rows, struck)
-        # Opening so slowly that it may be pressed shut again at once.
-        slow = closed & (rows["kind"] <= CORD) & (rows["rate"] > st.APPROACH) & (rows["rate"] < SLUGGISH)
-        if slow.any():
-            self._press(rows, slow)
-            self.works[0] += st.hold(self.world.cells, rows, self.pos, self.vel, rise)
-        elif not (approach.any() or pins.any()):
+        if not self._hold(rows, closed & (rows["kind"] <= CORD), rise) and not (approach.any() or pins.any()):
             return
         for k in np.flatnonzero(closed & (rows["kind"] == CORD)):
             row = rows[k]
@@ -334,6 +329,22 @@ class ExactRun:
             de.take_grip(rows[k])
             if rows[k]["shut"]:
                 self._note_shut(rows[k], float(struck[k]))
+
+    def _hold(self, rows: Table, closed: BoolArray, rise: float) -> bool:
+        """Holds what opens so slowly that it would be pressed shut again at once, and what opens in consequence;
+        whether there was any."""
+        held = np.zeros(len(rows), bool)
+        rows["bound"] = 0.0
+        for _ in range(len(rows)):
+            slow = closed & ~held & (rows["rate"] > st.APPROACH) & (rows["rate"] < SLUGGISH)
+            if not slow.any():
+                break
+            self._press(rows, slow)
+            self.works[0] += st.hold(self.world.cells, rows, self.pos, self.vel, rise)
+            before, held = held, rows["bound"] == st.HELD
+            if np.array_equal(before, held):
+                break
+        return bool(held.any())
 
     def _press(self, rows: Table, free: BoolArray) -> None:
         """Notes how the gaps of rows accelerate while some of them do not hold."""

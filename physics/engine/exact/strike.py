@@ -31,6 +31,10 @@ RISE = 1e-9
 infinitely many."""
 ROUNDS = 60
 """Blows in consequence of one another, until they rebound no more."""
+HELD = 2.0
+"""Mark of a row that may pull as well as push, to stay shut."""
+JAMMED = 3.0
+"""Mark of a row that may pull and push, and rub as hard as it takes."""
 SWEEPS = 20_000
 SETTLED = 2e-16
 """Share of the greatest speed by which the last sweep may still change one."""
@@ -98,20 +102,23 @@ def strike(
 def hold(cells: FloatArray, rows: Table, pos: FloatArray, vel: FloatArray, rise: float) -> float:
     """Keeps shut, or taut, what would open by less than `rise` (m) before it is pressed shut again: two corners
     that lift each other, or two wires that slacken each other, would go on without end. Changes `vel`; returns the
-    heat, J. rows[k].press must be known for those that open slowly."""
+    heat, J. rows[k].press must be known for those that open slowly; marks those that it holds `HELD`, and holds what
+    is marked so already."""
     w = head(cells, WORLD)
     energy = kinetic(w, vel)
     needed = False
     for k in range(len(rows)):
         row = rows[k]
-        row.bound = 0.0
+        if row.bound != HELD:
+            row.bound = 0.0
         if row.kind == GIVEN or row.gap > TOUCHING:
             continue
-        if row.kind >= PIN_X or row.rate <= APPROACH:
+        row.along = 0.0
+        if row.bound == 0.0 and (row.kind >= PIN_X or row.rate <= APPROACH):
             # What is shut stays so: holding one contact must not push another in.
-            row.bound, row.along = 1.0, 0.0
+            row.bound = 1.0
         elif row.rate > APPROACH and row.rate**2 < -2.0 * row.press * rise and row.e < 1.0:
-            row.bound, row.along = 2.0, 0.0
+            row.bound = HELD
             needed = True
     if needed:
         _sweep(w, rows, vel)
@@ -121,8 +128,8 @@ def hold(cells: FloatArray, rows: Table, pos: FloatArray, vel: FloatArray, rise:
 
 @part
 def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
-    """Impulses of the rows that take part (bound 1), one after another, until none changes any more. Bound 2: may
-    pull as well; bound 3: may pull, and rub as hard as it takes."""
+    """Impulses of the rows that take part (`bound` is 1, `HELD` or `JAMMED`), one after another, until none changes
+    any more."""
     inverse = inverses(w)
     for k in range(len(rows)):
         rows[k].force = rows[k].rub = 0.0
@@ -139,7 +146,7 @@ def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
                 rate += row.J[a] * vel[i, a] + row.J[3 + a] * vel[j, a]
             if give > 0.0:
                 total = row.force + (row.along - rate) / give
-                if row.kind <= CORD and row.bound < 2.0:
+                if row.kind <= CORD and row.bound < HELD:
                     total = max(total, 0.0)
                 change = total - row.force
                 row.force = total
@@ -154,7 +161,7 @@ def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
                     give += row.T[a] ** 2 * inverse[i, a] + row.T[3 + a] ** 2 * inverse[j, a]
                     rate += row.T[a] * vel[i, a] + row.T[3 + a] * vel[j, a]
                 if give > 0.0:
-                    bound = row.mu * row.force if row.bound < 3.0 else 1e300
+                    bound = row.mu * row.force if row.bound < JAMMED else 1e300
                     total = min(max(row.rub - rate / give, -bound), bound)
                     change = total - row.rub
                     row.rub = total
@@ -180,7 +187,7 @@ def unjam(cells: FloatArray, rows: Table, pos: FloatArray, vel: FloatArray, jam:
         row = rows[k]
         shut = row.gap <= TOUCHING and row.kind != GIVEN and (row.kind >= PIN_X or row.rate <= APPROACH)
         row.bound, row.along = (1.0 if shut else 0.0), 0.0
-    rows[jam].bound = 3.0
+    rows[jam].bound = JAMMED
     _sweep(w, rows, vel)
     refresh_table(rows, pos, vel)
     return energy - kinetic(w, vel) if rows[jam].force > 0.0 else np.nan
