@@ -66,7 +66,7 @@ def decide(world: World, rows: Table, make: Callable[[Table], Machine], time: fl
         row, found = rows[k], machine.rows[k]
         if what == CLOSE:
             row["status"] = ON
-            take_grip(found)
+            take_grip(machine.rows, k)
             row["grip"], row["sigma"] = found["grip"], found["sigma"]
             _join_partner(rows, row)
         elif what == OPEN:
@@ -94,14 +94,21 @@ def _join_partner(rows: Table, row: Any) -> None:
             row["grip"], row["sigma"] = SLIDE, other["sigma"]
 
 
-def take_grip(row: np.void) -> None:
+@part
+def grip_of(row: Any) -> None:
     """The grip that a contact's slip says it has: it slips, or is held until friction turns out too weak."""
-    if row["mu"] <= 0.0 or row["kind"] == CORD:
-        row["grip"] = FREE
-    elif abs(row["slip"]) > SLOW:
-        row["grip"], row["sigma"] = SLIDE, np.sign(row["slip"])
+    if row.mu <= 0.0 or row.kind == CORD:
+        row.grip = FREE
+    elif abs(row.slip) > SLOW:
+        row.grip, row.sigma = SLIDE, np.sign(row.slip)
     else:
-        row["grip"] = STICK
+        row.grip = STICK
+
+
+@kernel
+def take_grip(rows: Table, k: int) -> None:
+    """`grip_of` for row k of a table of its own."""
+    grip_of(rows[k])
 
 
 @kernel

@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import ceil
 from typing import Any
 
-from physics.engine.cells import head, line
+from physics.engine.cells import head
 from physics.engine.exact.integrate import between, densify, derive, step, unpack
 from physics.engine.exact.machine import (
     AT,
@@ -32,10 +32,8 @@ from physics.engine.exact.machine import (
     olds,
     poses,
     recorded,
-    recording,
     row_of,
     slope,
-    spans,
     state,
     takes,
     took,
@@ -90,19 +88,42 @@ def begin(cells: FloatArray, memory: FloatArray) -> bool:
 
 
 @kernel
-def flow(cells: FloatArray, memory: FloatArray, until: float, accuracy: float) -> int:
+def liveliest(memory: FloatArray, calm: float, moved: Any) -> float:
+    """The greatest velocity or acceleration of any body, m/s and m/s² (rad/s and rad/s²). moved (movable,) ← True
+    for those faster than `calm`."""
+    m = head(memory, MACHINE)
+    rate = slope(m, 0)
+    most = 0.0
+    for i in range(m.movable):
+        for a in range(3):
+            speed = abs(rate[3 * i + a])
+            moved[i] = moved[i] or speed > calm
+            most = max(most, speed, abs(rate[3 * (m.movable + i) + a]))
+    return float(most)
+
+
+@kernel
+def flow(
+    cells: FloatArray,
+    memory: FloatArray,
+    record: FloatArray,
+    dense: FloatArray,
+    most: int,
+    until: float,
+    accuracy: float,
+) -> int:
     """Steps on until a step ends at `until` or later, or something happens: see the codes above.
 
-    `begin` must have been called for these rows. Steps do not depend on `until`.
+    `begin` must have been called for these rows. Steps do not depend on `until`. They are written behind the
+    first recorded(m)[0] of record (room, 2) and dense (room, 8, size), up to `most` in all.
     """
     w, m = head(cells, WORLD), head(memory, MACHINE)
     now, done = clock(m), recorded(m)
-    done[0] = 0
     while True:
         t = now[T]
         if t >= until:
             return REACHED
-        if done[0] == m.capacity:
+        if done[0] >= most:
             return FULL
         h = now[H]
         error = step(w, m, t, h, accuracy)
@@ -119,23 +140,24 @@ def flow(cells: FloatArray, memory: FloatArray, until: float, accuracy: float) -
         code, share = _first(w, m, t, h)
         if code == REACHED:
             now[H] = min(LONGEST, h * (min(5.0, 0.9 * error**-0.125) if error > 1e-8 else 5.0))
-            _accept(m, t, h)
+            _accept(m, t, h, record, dense)
             for k in range(m.watched):
                 before(m)[k] = after(m)[k]
             continue
         share = _sharpen(w, m, code, t, h, share, accuracy)
-        _accept(m, t, share * h)
+        _accept(m, t, share * h, record, dense)
         return code
 
 
 @part
-def _accept(m: Any, t: float, h: float) -> None:
+def _accept(m: Any, t: float, h: float, record: FloatArray, dense: FloatArray) -> None:
     """Records the step just made dense, and makes its end the state."""
     n = recorded(m)[0]
-    spans(m)[n, 0], spans(m)[n, 1] = t, t + h
-    kept_step, dense = recording(m, n), line(m, m.dense_at, POWERS * m.size)
-    for k in range(POWERS * m.size):
-        kept_step[k] = dense[k]
+    record[n, 0], record[n, 1] = t, t + h
+    latest = dense_of(m)
+    for q in range(POWERS):
+        for k in range(m.size):
+            dense[n, q, k] = latest[q, k]
     recorded(m)[0] = n + 1
     clock(m)[T] = t + h
     y, new, rate, last = state(m), newest(m), slope(m, 0), slope(m, 12)
