@@ -88,21 +88,6 @@ def begin(cells: FloatArray, memory: FloatArray) -> bool:
 
 
 @kernel
-def liveliest(memory: FloatArray, calm: float, moved: Any) -> float:
-    """The greatest velocity or acceleration of any body, m/s and m/s² (rad/s and rad/s²). moved (movable,) ← True
-    for those faster than `calm`."""
-    m = head(memory, MACHINE)
-    rate = slope(m, 0)
-    most = 0.0
-    for i in range(m.movable):
-        for a in range(3):
-            speed = abs(rate[3 * i + a])
-            moved[i] = moved[i] or speed > calm
-            most = max(most, speed, abs(rate[3 * (m.movable + i) + a]))
-    return float(most)
-
-
-@kernel
 def flow(
     cells: FloatArray,
     memory: FloatArray,

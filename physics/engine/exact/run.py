@@ -25,6 +25,7 @@ from physics.engine.exact.explain import explain, follow_frames
 from physics.engine.exact.integrate import projected
 from physics.engine.exact.machine import FIRST, H, Machine, T, machine_of
 from physics.engine.exact.record import Record
+from physics.engine.exact.rest import CALM, at_rest, liveliest
 from physics.engine.exact.solve import LARGEST, system_of
 from physics.engine.exact.standing import SLUGGISH, TooMuch, closes, gathered_rows, parts, separate
 from physics.engine.exact.tell import Teller
@@ -48,12 +49,6 @@ STUCK = 40
 """Events at one moment after which exact mode gives up."""
 LOOKS = 64
 """Steps after which it is looked whether a cluster has come to rest while nothing happened."""
-CALM = 1e-7
-"""m/s and m/s²: a cluster whose smoothed motion and accelerations are below it sleeps."""
-SOLVED = 1e-12
-"""m/s and m/s²: velocities and accelerations below it are zero but for rounding, and need no smoothing."""
-SMOOTHED = 20
-"""Frames of 1/60 s of which the smoothed motion keeps a trace above rounding (0.2 to the 20th)."""
 RATTLE = 12
 """Events within `CROWD_TIME` after which a rebound must rise ten times as high as before to be one."""
 
@@ -357,28 +352,15 @@ class ExactRun:
         """Sleeps where nothing moves, nothing pulls, and nothing depends on time (row E2)."""
         if not self.names.timeless:
             return
-        n = 3 * self.names.movable
+        n = self.names.movable
         machine = self.modes[-1].machine
-        still = fl.liveliest(machine.cells, CALM, self.moved)
-        if still > CALM or (still > SOLVED and self._smoothed() > CALM**2):
+        lively = liveliest(machine.cells, CALM, self.moved)
+        if not at_rest(lively, self.record, n, self.time, None if self.pending else self.start):
             return
-        machine.y[n : 2 * n] = 0.0
+        machine.y[3 * n : 6 * n] = 0.0
         machine.slopes[0] = 0.0
-        self.vel[: self.names.movable] = 0.0
+        self.vel[:n] = 0.0
         self.asleep = True
         for i in np.flatnonzero(self.moved):
             self.tell.rests(max(self.time, self.pending.get(int(i), 0.0)), int(i))
         self.moved[:] = False
-
-    def _smoothed(self) -> float:
-        """The greatest smoothed motion of any body, (m/s)²: frame = ‖v‖² + ω², net ← 0.2 net + 0.8 frame."""
-        times = self.time - np.arange(SMOOTHED) / 60.0
-        times = times[times > max(self.start, max(self.pending.values(), default=self.start))][::-1]
-        if len(times) == 0 or self.pending:
-            return 0.0
-        n = self.names.movable
-        speeds = self._sampled(times)[:, 3 * n : 6 * n].reshape(len(times), n, 3)
-        net = np.zeros(n)
-        for frame in (speeds**2).sum(axis=2):
-            net = 0.2 * net + 0.8 * frame
-        return float(net.max(initial=0.0))
