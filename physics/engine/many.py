@@ -46,9 +46,12 @@ def simulate_many(
     mode: Choice = "auto",
     accuracy: float = ACCURACY,
 ) -> list[Trajectory]:
-    """`simulate` for each scene, in so many threads; the same to the bit whatever their number."""
+    """`simulate` for each scene, in so many threads; the same to the bit whatever their number. Raises SceneError as
+    `simulate` does, and for less than one thread."""
+    if threads < 1:
+        raise SceneError(f"cannot simulate in {threads} threads; it takes one at least")
     one = partial(simulate, seconds=seconds, rate=rate, mode=mode, accuracy=accuracy)
-    if threads <= 1:
+    if threads == 1:
         return [one(scene) for scene in scenes]
     with ThreadPoolExecutor(threads) as pool:
         return list(pool.map(one, scenes))

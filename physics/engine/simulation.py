@@ -157,7 +157,7 @@ class Simulation:
     ) -> ExactRun | RobustRun:
         if self.mode == "robust":
             return RobustRun(world, names, pos, vel, time)
-        return ExactRun(world, names, pos, vel, time, self.accuracy)
+        return ExactRun(world, names, pos, vel, time, self.accuracy, patient=self.mode == "exact")
 
     def _start_all(self) -> None:
         """Looks at the scene at its start, even where nobody asked for more."""

@@ -82,6 +82,18 @@ def test_a_rough_incline_holds_a_box_without_any_creep_where_mu_exceeds_tan_thet
     assert off(moved.force("friction of incline", "A").values, -G * sin(angle) * downhill(angle), G) < 1e-12
 
 
+def test_friction_is_mu_times_the_weight_until_a_sliding_box_stops_and_none_from_then_on() -> None:
+    speed, friction = 2.0, 0.4
+    moved = simulate(
+        Scene((box("A", 0, 0.2, 0.8, 0.4, velocity=(speed, 0, 0)), floor(Material(friction=friction)))), 1
+    )
+    stops = speed / (friction * G)
+    assert 0.3 < stops < 0.9
+    rub = moved.force("friction of floor", "A").values[:, 0]
+    assert off(rub[moved.times < stops], -friction * G, G) < 1e-10
+    assert off(rub[moved.times > stops], 0.0, G) < 1e-10
+
+
 def test_a_box_thrown_up_a_rough_incline_stops_and_comes_back_slower() -> None:
     # Up with −g (sin θ + μ cos θ), down again with g (sin θ − μ cos θ).
     angle, friction, speed = pi / 6, 0.3, 3.0

@@ -45,6 +45,9 @@ CROWD = 400
 """Events within `CROWD_TIME` after which nothing rebounds any more."""
 CROWD_TIME = 1e-3
 """s."""
+MANY = 16
+"""Bodies that can move from which on a crowd is left to robust mode, where there is a choice, as soon as it has
+more events than bodies within `ENDLESS_TIME`: each costs as much as all robust steps between two frames."""
 STUCK = 40
 """Events at one moment after which exact mode gives up."""
 LOOKS = 64
@@ -75,13 +78,14 @@ class ExactRun:
         vel: FloatArray,
         time: float,
         accuracy: float,
-        ledger: FloatArray | None = None,
+        patient: bool = True,
     ) -> None:
-        self.world, self.names, self.accuracy = world, names, accuracy
+        """patient: goes on however many events there are (see `MANY`)."""
+        self.world, self.names, self.accuracy, self.patient = world, names, accuracy, patient
         self.time = self.start = time
         self.pos, self.vel = pos.copy(), vel.copy()
         count = 1 + sum(len(t) for t in (world.pushes, world.links, world.supports, world.courses))
-        self.works = np.zeros(count) if ledger is None else ledger.copy()
+        self.works = np.zeros(count)
         self.step = FIRST
         self.stopped = self.asleep = False
         self.events: list[Event] = []
@@ -341,6 +345,8 @@ class ExactRun:
         self.lately = [when for when in self.lately if when > self.time - ENDLESS_TIME]
         self.lately.append(self.time)
         if sum(when > self.time - 1e-12 for when in self.lately) > STUCK or len(self.lately) > ENDLESS:
+            raise TooMuch
+        if not self.patient and len(self.lately) > self.names.movable >= MANY:
             raise TooMuch
 
     def _stop(self) -> None:
