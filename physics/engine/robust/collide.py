@@ -51,7 +51,8 @@ from physics.engine.robust.memory import (
     when_of,
     whole_of,
 )
-from physics.engine.robust.soft import haul, opening, press, rate_of, settle, slipping
+from physics.engine.robust.rates import haul, opening, press, rate_of, slipping
+from physics.engine.robust.soft import settle
 from physics.engine.rows import CORD
 from physics.engine.tables import gravity, inverses
 from physics.jit import part
@@ -94,8 +95,10 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
         real[HIT, k] = 0.0
     rounds = 0
     loss = 0.0
+    earliest = 0.0
     while rounds <= ROUNDS:
         struck = False
+        first = h
         for k in range(contacts):
             pull = opening(real, whole, k, acc)
             rate, when = approach(real[GAP, k], opening(real, whole, k, vel), pull, lag, h)
@@ -110,6 +113,7 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
                 real[GAIN, k] = (lag + when) * pull
                 if rounds > 0:
                     real[TAU, k] = max(when, since[whole[ONE, k]], since[whole[OTHER, k]])
+                first = min(first, real[TAU, k])
         for k in range(rows):
             row = row_of(m, k)
             rate = rate_of(jacobian, ends, k, vel)
@@ -123,8 +127,18 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
                         _begin(m)
                     struck = True
                     bars[k, GOAL], bars[k, WHEN], bars[k, CLOSING] = -(lag + when) * pull, when, rate
+                    first = min(first, when)
         if not struck:
             break
+        if rows > 0:
+            # A blow runs through wires and pins at once, so all of a round is struck at one moment: the first,
+            # for what is struck too soon enters nothing.
+            earliest = max(earliest, first)
+            for k in range(contacts):
+                if whole[LIVE, k] == 1:
+                    real[TAU, k] = earliest
+            for k in range(rows):
+                bars[k, WHEN] = earliest
         loss += _solve(w, m, rounds < ROUNDS)
         rounds += 1
     if rounds > 0:
@@ -163,7 +177,7 @@ def _solve(w: Any, m: Any, lively: bool) -> float:
             real[TARGET, k] = -real[GAIN, k] - bounce * real[BOUNCE, k] * real[RATE, k]
         for k in range(rows):
             bars[k, IMPULSE] = 0.0
-        settle(real, whole, bars, jacobian, ends, inverse, contacts, vel, SWEEPS, CLOSE)
+        settle(real, whole, bars, jacobian, ends, inverse, contacts, vel, SWEEPS, CLOSE, 1.0)
         loss = 0.0
         scale = 0.0
         for k in range(contacts):
@@ -188,7 +202,6 @@ def _solve(w: Any, m: Any, lively: bool) -> float:
     for k in range(rows):
         if bars[k, IMPULSE] != 0.0:
             loss -= 0.5 * bars[k, IMPULSE] * bars[k, CLOSING]
-            when = bars[k, WHEN] if bars[k, WHEN] >= 0.0 else max(since[ends[k, 0]], since[ends[k, 1]])
-            haul(jacobian, ends, inverse, k, -when * bars[k, IMPULSE], shift)
+            haul(jacobian, ends, inverse, k, -bars[k, WHEN] * bars[k, IMPULSE], shift)
             bars[k, GIVES] = max(bars[k, GIVES], bars[k, IMPULSE])
     return loss

@@ -63,13 +63,14 @@ from physics.engine.robust.memory import (
     whole_of,
 )
 from physics.engine.robust.near import find
-from physics.engine.robust.soft import bring_up, haul, opening, press, push_apart, rate_of, settle
+from physics.engine.robust.project import project
+from physics.engine.robust.rates import haul, opening, press, rate_of
+from physics.engine.robust.soft import bring_up, settle
 from physics.engine.robust.watch import release, watch_contacts, watch_rest, watch_supports, watch_wires
-from physics.engine.rows import CORD, GIVEN, POINT
+from physics.engine.rows import CORD, GIVEN, POINT, refresh
 from physics.engine.tables import (
     WORLD,
     course_of,
-    gravity,
     inverses,
     masses,
     pair_of,
@@ -184,7 +185,7 @@ def _sync(w: Any, m: Any, lag: float, kick: float) -> None:
 
 @part
 def _drift(w: Any, m: Any, movable: int, h: float, struck: bool) -> None:
-    """Poses after h seconds, overlap let out, and whether anything moved (`STILL`)."""
+    """Poses after h seconds, and whether anything moved (`STILL`)."""
     vel, acc, pos, shift, asked, tally = (
         vel_of(m),
         acc_of(m),
@@ -203,16 +204,6 @@ def _drift(w: Any, m: Any, movable: int, h: float, struck: bool) -> None:
         course = course_of(w, k)
         if course.on == 1:
             pos[course.body, course.axis] = asked[w.supports + k]
-    gx, gy = gravity(w)[0], gravity(w)[1]
-    level, mass = 0.0, masses(w)
-    for i in range(movable):
-        level -= mass[i, 0] * (gx * pos[i, 0] + gy * pos[i, 1])
-    if push_apart(w, m, h):
-        quiet = False
-        for i in range(movable):
-            level += mass[i, 0] * (gx * pos[i, 0] + gy * pos[i, 1])
-        # What a push lifts had fallen too far: that much less was turned into heat.
-        ledger_of(m)[0] += level
     tally[STILL] = tally[STILL] + 1 if quiet else 0
 
 
@@ -228,14 +219,17 @@ def _goals(w: Any, m: Any, h: float, kick: float, struck: bool) -> None:
         for q in range(3):
             before[i, q] = vel[i, q]
     for k in range(tally_of(m)[CONTACTS]):
-        gap = max(real[GAP, k], 0.0)
+        gap = real[GAP, k]
         if struck:
             gap += opening(real, whole, k, shift)
-        real[TARGET, k] = -gap / h
+        # What is too near already is moved away (`part_overlaps`), never driven: that would make energy.
+        real[TARGET, k] = -max(gap, 0.0) / h
         real[PN, k] *= warm
         real[PT, k] *= warm
     for k in range(m.rows):
         row = row_of(m, k)
+        if struck:
+            refresh(row, pos, vel)
         bars[k, IMPULSE] *= warm
         if row.kind == GIVEN or row.kind == POINT:
             support = support_of(w, row.source)
@@ -271,7 +265,7 @@ def _kick(w: Any, m: Any, movable: int, kick: float) -> float:
             bars[k, IMPULSE] = 0.0
         elif bars[k, IMPULSE] != 0.0:
             haul(jacobian, ends, inverse, k, bars[k, IMPULSE], vel)
-    settle(real, whole, bars, jacobian, ends, inverse, contacts, vel, ROUNDS, CLOSE)
+    settle(real, whole, bars, jacobian, ends, inverse, contacts, vel, ROUNDS, CLOSE, 1.0)
     heat = 0.0
     for i in range(movable):
         for q in range(3):
@@ -405,10 +399,11 @@ def run(
         _begin(w, m, lag)
         if not find(w, m, movable, h, room):
             return
+        bring_up(w, m)
+        righted = project(w, m, h)
         add(w, t, pos, now, force)
         if not _ask(w, m, movable, t, h):
             return
-        bring_up(w, m)
         if w.courses > 0:
             release(w, m, t, h, lag)
         watch_supports(w, m, t)
@@ -429,7 +424,7 @@ def run(
         for k in range(len(ledger)):
             ledger[k] += 0.5 * h * power[k]
         ledger[0] += max(loss, 0.0)
-        _drift(w, m, movable, h, struck)
+        _drift(w, m, movable, h, struck or righted)
         watch_wires(w, m, t, kick, h)
         reals_of(m)[LAST] = kick
         tally[DONE] += 1
