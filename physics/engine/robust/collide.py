@@ -10,6 +10,8 @@ from __future__ import annotations
 from math import hypot, sqrt
 from typing import Any
 
+import numpy as np
+
 from physics.engine.robust.manifold import (
     BOUNCE,
     GAIN,
@@ -37,7 +39,7 @@ from physics.engine.robust.memory import (
     GIVES,
     GOAL,
     IMPULSE,
-    LEAST,
+    SPURT,
     WHEN,
     acc_of,
     bars_of,
@@ -63,6 +65,8 @@ ROUNDS = 8
 """Of impacts in consequence of one another within a substep; after them all that still close are dead."""
 SWEEPS = 60.0
 """Rounds of sweeps in one."""
+TAUT = 2e-6
+"""m: a wire with no more slack bears a blow."""
 CLOSE = 1e-11
 """m/s: sweeps of an impact end when no rate changes by more."""
 ROUNDING = 1e-12
@@ -117,16 +121,17 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
         for k in range(rows):
             row = row_of(m, k)
             rate = rate_of(jacobian, ends, k, vel)
-            bars[k, GOAL] = min(rate, 0.0) if bars[k, LEAST] == 0.0 else rate
-            bars[k, WHEN], bars[k, CLOSING] = -1.0, 0.0
+            bars[k, GOAL], bars[k, CLOSING], bars[k, SPURT] = rate, rate, 0.0
             if row.kind == CORD and bars[k, ACTIVE] == 1.0:
+                # A slack wire bears nothing.
+                bars[k, GOAL] = min(rate, 0.0) if row.gap <= TAUT else -np.inf
                 pull = rate_of(jacobian, ends, k, acc)
-                rate, when = approach(row.gap, rate, pull, lag, h)
-                if rate < -FAST - 2.0 * h * (abs(row.c) + hypot(gx, gy)):
+                fast, when = approach(row.gap, rate, pull, lag, h)
+                if fast < -FAST - 2.0 * h * (abs(row.c) + hypot(gx, gy)):
                     if not struck and rounds == 0:
                         _begin(m)
                     struck = True
-                    bars[k, GOAL], bars[k, WHEN], bars[k, CLOSING] = -(lag + when) * pull, when, rate
+                    bars[k, GOAL], bars[k, SPURT] = -(lag + when) * pull, (lag + when) * pull
                     first = min(first, when)
         if not struck:
             break
@@ -201,7 +206,10 @@ def _solve(w: Any, m: Any, lively: bool) -> float:
             since[i], since[j] = max(since[i], when), max(since[j], when)
     for k in range(rows):
         if bars[k, IMPULSE] != 0.0:
-            loss -= 0.5 * bars[k, IMPULSE] * bars[k, CLOSING]
+            rate = rate_of(jacobian, ends, k, vel)
+            loss -= bars[k, IMPULSE] * (0.5 * (bars[k, CLOSING] + rate) + bars[k, SPURT])
+            for end in range(2):
+                since[ends[k, end]] = max(since[ends[k, end]], bars[k, WHEN])
             haul(jacobian, ends, inverse, k, -bars[k, WHEN] * bars[k, IMPULSE], shift)
             bars[k, GIVES] = max(bars[k, GIVES], bars[k, IMPULSE])
     return loss

@@ -82,6 +82,8 @@ class Record(NamedTuple):
     ends: IntArray
     forces: FloatArray
     pairs: NDArray[np.int32]
+    struck: FloatArray
+    """(records, bodies + 1): how long after the record each body was struck, s; −1: not before the next."""
 
 
 def crowd_of(world: World, names: Names, pos: FloatArray, vel: FloatArray, ledger: FloatArray) -> Crowd:
@@ -125,7 +127,7 @@ def crowd_of(world: World, names: Names, pos: FloatArray, vel: FloatArray, ledge
         np.zeros(len(ledger)),
         ledger,
         np.zeros(1),
-        np.array([0, 0, 0, 0, 0, 0, 0, -1, 0, 0], np.int64),
+        np.array([0, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0], np.int64),
         np.zeros((64, EVENT)),
     )
     return gathered(arrays)

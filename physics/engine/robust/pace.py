@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 
 from physics.engine.cells import head
 from physics.engine.forces import add, clearance, powers, put
-from physics.engine.robust.collide import strike
+from physics.engine.robust.collide import FAST, strike
 from physics.engine.robust.crowd import Record
-from physics.engine.robust.manifold import GAP, NX, NY, ONE, OTHER, PAIR, PN, PT, PX, PY, TARGET
+from physics.engine.robust.manifold import GAP, HIT, NX, NY, ONE, OTHER, PAIR, PN, PT, PX, PY, TARGET
 from physics.engine.robust.memory import (
     ACTIVE,
     CONTACTS,
@@ -30,6 +30,7 @@ from physics.engine.robust.memory import (
     FORCE,
     GOAL,
     IMPULSE,
+    LANDED,
     LAST,
     LEAST,
     MEMORY,
@@ -157,7 +158,11 @@ def _begin(w: Any, m: Any, lag: float) -> None:
     pos, vel, acc, now, start = pos_of(m), vel_of(m), acc_of(m), now_of(m), start_of(m)
     turns, when, force, inverse, reach = turns_of(m), when_of(m), force_of(m), inverses(w), reaches(w)
     for i in range(len(pos)):
-        most = LANDING * (abs(force[i, 0]) * inverse[i, 0] + abs(force[i, 1]) * inverse[i, 1])
+        most = (
+            np.inf
+            if tally_of(m)[LANDED] == 0
+            else LANDING * (abs(force[i, 0]) * inverse[i, 0] + abs(force[i, 1]) * inverse[i, 1])
+        )
         if abs(acc[i, 0]) + abs(acc[i, 1]) > most:
             acc[i, 0], acc[i, 1], acc[i, 2] = 0.0, 0.0, 0.0
         elif abs(acc[i, 2]) * reach[i] > most + LANDING * abs(force[i, 2]) * inverse[i, 2] * reach[i]:
@@ -296,6 +301,38 @@ def _sum_up(m: Any, kick: float) -> None:
 
 
 @part
+def _landed(m: Any) -> None:
+    """Tells whether a kick stopped something that was still apart: such a force does not last."""
+    real, tally = real_of(m), tally_of(m)
+    tally[LANDED] = 0
+    for k in range(tally[CONTACTS]):
+        if real[PN, k] > 0.0 and real[TARGET, k] < -FAST:
+            tally[LANDED] = 1
+    for k in range(m.rows):
+        if row_of(m, k).kind == CORD and bars_of(m)[k, IMPULSE] > 0.0 and bars_of(m)[k, GOAL] < -FAST:
+            tally[LANDED] = 1
+
+
+@part
+def _mark(m: Any, record: Record, since: float) -> None:
+    """Keeps when bodies were struck. since: the last record, s."""
+    start, before, when, at = start_of(m), before_of(m), when_of(m), tally_of(m)[RECORDS] - 1
+    real, whole, contacts = real_of(m), whole_of(m), tally_of(m)[CONTACTS]
+    uneven = True
+    while uneven:
+        # What one blow after another joined is shown struck at once, for momentum goes from one to another.
+        uneven = False
+        for k in range(contacts):
+            i, j = whole[ONE, k], whole[OTHER, k]
+            if real[HIT, k] > 0.0 and when[i] != when[j]:
+                when[i] = when[j] = max(when[i], when[j])
+                uneven = True
+    for i in range(len(start)):
+        if before[i, 0] != start[i, 0] or before[i, 1] != start[i, 1] or before[i, 2] != start[i, 2]:
+            record.struck[at, i] = since + when[i]
+
+
+@part
 def _keep(w: Any, m: Any, record: Record, kick: float) -> None:
     tally, bars, ledger, rows = tally_of(m), bars_of(m), ledger_of(m), m.rows
     at = tally[RECORDS]
@@ -317,6 +354,8 @@ def _keep(w: Any, m: Any, record: Record, kick: float) -> None:
         kick,
     )
     record.ends[at] = tally[PRESSED]
+    for i in range(record.struck.shape[1]):
+        record.struck[at, i] = -1.0
     tally[RECORDS] = at + 1
 
 
@@ -421,6 +460,9 @@ def run(
             ledger[k] += lag * power[k]
         if done % each == 0:
             _keep(w, m, record, kick)
+        if struck:
+            _mark(m, record, (done % each) * h)
+        _landed(m)
         for k in range(len(ledger)):
             ledger[k] += 0.5 * h * power[k]
         ledger[0] += max(loss, 0.0)

@@ -11,8 +11,9 @@ from math import ceil, sqrt
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from physics.engine.acts import Act, applied
+from physics.engine.acts import Act, applied, energies
 from physics.engine.forces import ledger_size
 from physics.engine.robust.broad import ROOM
 from physics.engine.robust.crowd import Record, contact_room, crowd_of, gathered, near_room
@@ -23,6 +24,8 @@ from physics.engine.robust.told import told, whose
 from physics.engine.world import SPRING, Names, World, copied
 from physics.trajectory import Event
 from sketch.ink import FloatArray
+
+IntArray = NDArray[np.int64]
 
 STEP = 1 / 60
 """s: bodies are looked at for rest, and a run may end, on this grid."""
@@ -68,6 +71,7 @@ class RobustRun:
             np.zeros(8, np.int64),
             np.zeros((32, FORCE)),
             np.zeros(32, np.int32),
+            np.full((8, bodies), -1.0),
         )
         self.steps = 0
         self.stopped = self.asleep = False
@@ -99,8 +103,9 @@ class RobustRun:
             self.steps = (self._records() - 1) // SUBSTEPS
 
     def cut(self, time: float) -> None:
-        """Forgets all that was recorded after `time`, s. The run cannot go on from there."""
-        kept = max(int(np.floor((time - self.start) / self.pitch + 1e-9)) + 1, 1)
+        """Forgets what was recorded after `time`, s, but the record that ends the way there. The run cannot go on
+        from there."""
+        kept = max(ceil((time - self.start) / self.pitch - 1e-9) + 1, 1)
         if kept < self._records():
             self.crowd.tally[RECORDS] = kept
             self.crowd.tally[PRESSED] = self.record.ends[kept - 1]
@@ -120,16 +125,57 @@ class RobustRun:
         way = x1 - x0
         pos = x0 + s * (v0 + s * (3 * way - 2 * v0 - v1 + s * (v0 + v1 - 2 * way)))
         vel = (v0 + s * (6 * way - 4 * v0 - 2 * v1 + s * 3 * (v0 + v1 - 2 * way))) / h
+        self._break(at, after, share, pos, vel)
         if self.asleep or self.stopped:
             vel[times > self.start + self.pitch * (self._records() - 1) + 1e-9] = 0.0
         return pos, vel
 
+    def _break(
+        self, at: IntArray, after: IntArray, share: FloatArray, pos: FloatArray, vel: FloatArray
+    ) -> None:
+        """Where a body is struck between two records, its path has a kink: before, it goes on as it did; after, it
+        comes to the next record, both with the accelerations of the first."""
+        record, h = self.record, self.pitch
+        when = record.struck[at]
+        frames, bodies = np.nonzero((when >= 0.0) & (share[:, None] > 0.0))
+        if not len(frames):
+            return
+        first, last = at[frames], after[frames]
+        hit, s = when[frames, bodies][:, None], share[frames][:, None] * h
+        x0, x1 = record.pos[first, bodies], record.pos[last, bodies]
+        v0, v1, a = record.vel[first, bodies], record.vel[last, bodies], record.acc[first, bodies]
+        gone, left = np.minimum(s, hit), np.minimum(h - s, h - hit)
+        here = x0 + gone * (v0 + 0.5 * gone * a)
+        there = x1 - left * (v1 - 0.5 * left * a)
+        # Both meet at the blow but for terms of third order, which are dealt out along the way.
+        apart = x1 - (h - hit) * (v1 - 0.5 * (h - hit) * a) - x0 - hit * (v0 + 0.5 * hit * a)
+        early = s <= hit
+        pos[frames, bodies] = np.where(early, here + gone / h * apart, there - left / h * apart)
+        vel[frames, bodies] = np.where(early, v0 + gone * a, v1 - left * a)
+
     def ledger(self, times: FloatArray) -> FloatArray:
-        """Heat and works, (T, entries) J: see `forces.ledger_size`."""
+        """Heat and works, (T, entries) J: see `forces.ledger_size`. Heat holds what `corrected` tells, too."""
+        times = np.minimum(times, self.start + self.pitch * (self._records() - 1))
         at, share = self._places(times)
         after = np.minimum(at + 1, self._records() - 1)
         found = self.record.ledger
-        return found[at] + share[:, None] * (found[after] - found[at])
+        entries = found[at] + share[:, None] * (found[after] - found[at])
+        worked = entries[:, 1:].sum(axis=1) - found[0, 1:].sum()
+        first = self._mechanical(np.full(1, self.start))
+        entries[:, 0] = found[0, 0] + first + worked - self._mechanical(times)
+        return entries
+
+    def corrected(self, times: FloatArray) -> FloatArray:
+        """Energy that the steps themselves have taken (negative: given), (T,) J: errors of their length, poses put
+        right. It is the part of the ledger's heat that neither rubbing nor damping nor an impact made."""
+        at, share = self._places(times)
+        found, since = self.record.ledger, self.start + self.pitch * np.arange(self._records())
+        heat = self.ledger(since)[:, 0] - found[: len(since), 0]
+        after = np.minimum(at + 1, len(since) - 1)
+        return heat[at] + share * (heat[after] - heat[at])
+
+    def _mechanical(self, times: FloatArray) -> FloatArray:
+        return sum(energies(self.given, self.names, *self.states(times)), np.zeros(len(times)))
 
     def observe(self, times: FloatArray) -> tuple[list[Act], FloatArray]:
         """All forces, and accelerations (T, bodies + 1, 3): of the substep in which each time lies."""
@@ -147,7 +193,7 @@ class RobustRun:
     def _records(self) -> int:
         return int(self.crowd.tally[RECORDS])
 
-    def _places(self, times: FloatArray) -> tuple[np.ndarray[Any, np.dtype[np.int64]], FloatArray]:
+    def _places(self, times: FloatArray) -> tuple[IntArray, FloatArray]:
         """The record before each time, and how far to the next, 0 to 1."""
         units = (np.asarray(times) - self.start) / self.pitch
         whole = np.rint(units)
@@ -204,7 +250,10 @@ class RobustRun:
             grown = max(wanted, len(record.pos))
             record = record._replace(
                 **{name: _grown(getattr(record, name), grown) for name in ("pos", "vel", "acc")},
-                **{name: _grown(getattr(record, name), grown) for name in ("ledger", "pulls", "ends")},
+                **{
+                    name: _grown(getattr(record, name), grown)
+                    for name in ("ledger", "pulls", "ends", "struck")
+                },
             )
         pressed = int(tally[PRESSED])
         if pressed + len(crowd.near) > len(record.forces):
