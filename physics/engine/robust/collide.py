@@ -30,6 +30,7 @@ from physics.engine.robust.manifold import (
     TAU,
     WN,
     WT,
+    renew,
 )
 from physics.engine.robust.memory import (
     ACTIVE,
@@ -45,19 +46,22 @@ from physics.engine.robust.memory import (
     bars_of,
     ends_of,
     jacobian_of,
+    pos_of,
     real_of,
     row_of,
     shift_of,
     tally_of,
+    turns_of,
     vel_of,
     when_of,
     whole_of,
 )
 from physics.engine.robust.rates import haul, opening, press, rate_of, slipping
-from physics.engine.robust.soft import settle
+from physics.engine.robust.soft import bring_up, bring_up_rows, settle
 from physics.engine.rows import CORD
 from physics.engine.tables import gravity, inverses
 from physics.jit import part
+from sketch.ink import FloatArray
 
 FAST = 1e-4
 """m/s: what closes more slowly, over what gravity makes in a substep, lands without an impact."""
@@ -94,7 +98,7 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
     vel, real, whole, bars = vel_of(m), real_of(m), whole_of(m), bars_of(m)
     contacts, rows = tally_of(m)[CONTACTS], m.rows
     gx, gy = gravity(w)[0], gravity(w)[1]
-    acc, since, jacobian, ends = acc_of(m), when_of(m), jacobian_of(m), ends_of(m)
+    acc, since, jacobian, ends, shift = acc_of(m), when_of(m), jacobian_of(m), ends_of(m), shift_of(m)
     for k in range(contacts):
         real[HIT, k] = 0.0
     rounds = 0
@@ -105,7 +109,10 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
         first = h
         for k in range(contacts):
             pull = opening(real, whole, k, acc)
-            rate, when = approach(real[GAP, k], opening(real, whole, k, vel), pull, lag, h)
+            gap = real[GAP, k]
+            if rounds > 0:
+                gap += opening(real, whole, k, shift)
+            rate, when = approach(gap, opening(real, whole, k, vel), pull, lag, h)
             whole[LIVE, k] = 0
             if rate < -FAST - h * abs(real[NX, k] * gx + real[NY, k] * gy):
                 if not struck and rounds == 0:
@@ -126,7 +133,10 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
                 # A slack wire bears nothing.
                 bars[k, GOAL] = min(rate, 0.0) if row.gap <= TAUT else -np.inf
                 pull = rate_of(jacobian, ends, k, acc)
-                fast, when = approach(row.gap, rate, pull, lag, h)
+                gap = row.gap
+                if rounds > 0:
+                    gap += rate_of(jacobian, ends, k, shift)
+                fast, when = approach(gap, rate, pull, lag, h)
                 if fast < -FAST - 2.0 * h * (abs(row.c) + hypot(gx, gy)):
                     if not struck and rounds == 0:
                         _begin(m)
@@ -144,7 +154,9 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
                     real[TAU, k] = earliest
             for k in range(rows):
                 bars[k, WHEN] = earliest
+        _aim(w, m)
         loss += _solve(w, m, rounds < ROUNDS)
+        bring_up(w, m)
         rounds += 1
     if rounds > 0:
         for k in range(contacts):
@@ -164,6 +176,33 @@ def _begin(m: Any) -> None:
         real[WN, k], real[WT, k] = real[PN, k], real[PT, k]
     for k in range(m.rows):
         bars[k, ASIDE] = bars[k, IMPULSE]
+
+
+@part
+def _aim(w: Any, m: Any) -> None:
+    """Normals, levers and directions of what is struck, where bodies are at the moment of the blow: through other
+    points it would change their angular momentum."""
+    vel, real, whole, bars, shift = vel_of(m), real_of(m), whole_of(m), bars_of(m), shift_of(m)
+    place, turns, inverse = pos_of(m).copy(), turns_of(m).copy(), inverses(w)
+    for k in range(tally_of(m)[CONTACTS]):
+        if whole[LIVE, k] == 1:
+            _place(m, whole[ONE, k], real[TAU, k], place, turns)
+            _place(m, whole[OTHER, k], real[TAU, k], place, turns)
+            renew(k, place, turns, inverse, real, whole)
+            real[RATE, k] = opening(real, whole, k, vel) + real[GAIN, k]
+    if len(bars) > 0:
+        for i in range(len(place)):
+            for q in range(3):
+                place[i, q] = pos_of(m)[i, q] + shift[i, q] + bars[0, WHEN] * vel[i, q]
+        bring_up_rows(w, m, place, vel)
+
+
+@part
+def _place(m: Any, i: int, when: float, place: FloatArray, turns: FloatArray) -> None:
+    pos, vel, shift = pos_of(m), vel_of(m), shift_of(m)
+    for q in range(3):
+        place[i, q] = pos[i, q] + shift[i, q] + when * vel[i, q]
+    turns[i, 0], turns[i, 1] = np.cos(place[i, 2]), np.sin(place[i, 2])
 
 
 @part

@@ -84,6 +84,8 @@ class Record(NamedTuple):
     pairs: NDArray[np.int32]
     struck: FloatArray
     """(records, bodies + 1): how long after the record each body was struck, s; −1: not before the next."""
+    jump: FloatArray
+    """(records, bodies + 1, 3): by how much that changed its velocity."""
 
 
 def crowd_of(world: World, names: Names, pos: FloatArray, vel: FloatArray, ledger: FloatArray) -> Crowd:

@@ -330,6 +330,8 @@ def _mark(m: Any, record: Record, since: float) -> None:
     for i in range(len(start)):
         if before[i, 0] != start[i, 0] or before[i, 1] != start[i, 1] or before[i, 2] != start[i, 2]:
             record.struck[at, i] = since + when[i]
+            for q in range(3):
+                record.jump[at, i, q] += before[i, q] - start[i, q]
 
 
 @part
@@ -356,6 +358,8 @@ def _keep(w: Any, m: Any, record: Record, kick: float) -> None:
     record.ends[at] = tally[PRESSED]
     for i in range(record.struck.shape[1]):
         record.struck[at, i] = -1.0
+        for q in range(3):
+            record.jump[at, i, q] = 0.0
     tally[RECORDS] = at + 1
 
 

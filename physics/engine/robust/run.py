@@ -72,6 +72,7 @@ class RobustRun:
             np.zeros((32, FORCE)),
             np.zeros(32, np.int32),
             np.full((8, bodies), -1.0),
+            np.zeros((8, bodies, 3)),
         )
         self.steps = 0
         self.stopped = self.asleep = False
@@ -133,25 +134,19 @@ class RobustRun:
     def _break(
         self, at: IntArray, after: IntArray, share: FloatArray, pos: FloatArray, vel: FloatArray
     ) -> None:
-        """Where a body is struck between two records, its path has a kink: before, it goes on as it did; after, it
-        comes to the next record, both with the accelerations of the first."""
+        """Where a body is struck between two records, its velocity jumps; beside that, all go evenly from one to the
+        other, those too that are not struck, so that momentum is kept on the way."""
         record, h = self.record, self.pitch
-        when = record.struck[at]
-        frames, bodies = np.nonzero((when >= 0.0) & (share[:, None] > 0.0))
+        frames = np.flatnonzero((record.struck[at] >= 0.0).any(axis=1) & (share > 0.0))
         if not len(frames):
             return
         first, last = at[frames], after[frames]
-        hit, s = when[frames, bodies][:, None], share[frames][:, None] * h
-        x0, x1 = record.pos[first, bodies], record.pos[last, bodies]
-        v0, v1, a = record.vel[first, bodies], record.vel[last, bodies], record.acc[first, bodies]
-        gone, left = np.minimum(s, hit), np.minimum(h - s, h - hit)
-        here = x0 + gone * (v0 + 0.5 * gone * a)
-        there = x1 - left * (v1 - 0.5 * left * a)
-        # Both meet at the blow but for terms of third order, which are dealt out along the way.
-        apart = x1 - (h - hit) * (v1 - 0.5 * (h - hit) * a) - x0 - hit * (v0 + 0.5 * hit * a)
-        early = s <= hit
-        pos[frames, bodies] = np.where(early, here + gone / h * apart, there - left / h * apart)
-        vel[frames, bodies] = np.where(early, v0 + gone * a, v1 - left * a)
+        x0, x1, v0, v1 = record.pos[first], record.pos[last], record.vel[first], record.vel[last]
+        hit, jump, s = record.struck[first][:, :, None], record.jump[first], share[frames][:, None, None] * h
+        even = (v1 - v0 - jump) / h
+        apart = x1 - x0 - h * (v0 + 0.5 * h * even) - (h - hit) * jump
+        pos[frames] = x0 + s * (v0 + 0.5 * s * even + apart / h) + np.maximum(s - hit, 0.0) * jump
+        vel[frames] = v0 + s * even + (s > hit) * jump
 
     def ledger(self, times: FloatArray) -> FloatArray:
         """Heat and works, (T, entries) J: see `forces.ledger_size`. Heat holds what `corrected` tells, too."""
@@ -252,7 +247,7 @@ class RobustRun:
                 **{name: _grown(getattr(record, name), grown) for name in ("pos", "vel", "acc")},
                 **{
                     name: _grown(getattr(record, name), grown)
-                    for name in ("ledger", "pulls", "ends", "struck")
+                    for name in ("ledger", "pulls", "ends", "struck", "jump")
                 },
             )
         pressed = int(tally[PRESSED])

@@ -75,11 +75,18 @@ PATIENCE = 3.0
 @part
 def bring_up(w: Any, m: Any) -> None:
     """Contacts and rows at the poses of now."""
-    jacobian, bars, inverse, pos, now = jacobian_of(m), bars_of(m), inverses(w), pos_of(m), now_of(m)
-    renew_all(tally_of(m)[CONTACTS], pos, turns_of(m), inverse, real_of(m), whole_of(m))
+    pos = pos_of(m)
+    renew_all(tally_of(m)[CONTACTS], pos, turns_of(m), inverses(w), real_of(m), whole_of(m))
+    bring_up_rows(w, m, pos, now_of(m))
+
+
+@part
+def bring_up_rows(w: Any, m: Any, pos: FloatArray, vel: FloatArray) -> None:
+    """Rows at these poses and velocities."""
+    jacobian, bars, inverse = jacobian_of(m), bars_of(m), inverses(w)
     for k in range(m.rows):
         row = row_of(m, k)
-        refresh(row, pos, now)
+        refresh(row, pos, vel)
         light = 0.0
         rubs = row.kind == GIVEN or row.kind == POINT
         for q in range(6):
