@@ -11,6 +11,7 @@ from math import hypot, sqrt
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from physics.engine.robust.manifold import (
     BOUNCE,
@@ -46,6 +47,7 @@ from physics.engine.robust.memory import (
     bars_of,
     ends_of,
     jacobian_of,
+    place_of,
     pos_of,
     real_of,
     row_of,
@@ -62,6 +64,8 @@ from physics.engine.rows import CORD
 from physics.engine.tables import gravity, inverses
 from physics.jit import part
 from sketch.ink import FloatArray
+
+IntArray = NDArray[np.int64]
 
 FAST = 1e-4
 """m/s: what closes more slowly, over what gravity makes in a substep, lands without an impact."""
@@ -98,15 +102,13 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
     vel, real, whole, bars = vel_of(m), real_of(m), whole_of(m), bars_of(m)
     contacts, rows = tally_of(m)[CONTACTS], m.rows
     gx, gy = gravity(w)[0], gravity(w)[1]
-    acc, since, jacobian, ends, shift = acc_of(m), when_of(m), jacobian_of(m), ends_of(m), shift_of(m)
+    acc, jacobian, ends, shift = acc_of(m), jacobian_of(m), ends_of(m), shift_of(m)
     for k in range(contacts):
         real[HIT, k] = 0.0
     rounds = 0
     loss = 0.0
-    earliest = 0.0
     while rounds <= ROUNDS:
         struck = False
-        first = h
         for k in range(contacts):
             pull = opening(real, whole, k, acc)
             gap = real[GAP, k]
@@ -120,15 +122,11 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
                 struck = True
                 whole[LIVE, k] = 1
                 real[HIT, k] = max(real[HIT, k], -rate)
-                real[RATE, k], real[TAU, k] = rate, when
-                real[GAIN, k] = (lag + when) * pull
-                if rounds > 0:
-                    real[TAU, k] = max(when, since[whole[ONE, k]], since[whole[OTHER, k]])
-                first = min(first, real[TAU, k])
+                real[TAU, k] = when
         for k in range(rows):
             row = row_of(m, k)
             rate = rate_of(jacobian, ends, k, vel)
-            bars[k, GOAL], bars[k, CLOSING], bars[k, SPURT] = rate, rate, 0.0
+            bars[k, GOAL], bars[k, CLOSING], bars[k, SPURT], bars[k, WHEN] = rate, rate, 0.0, h
             if row.kind == CORD and bars[k, ACTIVE] == 1.0:
                 # A slack wire bears nothing.
                 bars[k, GOAL] = min(rate, 0.0) if row.gap <= TAUT else -np.inf
@@ -142,19 +140,13 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
                         _begin(m)
                     struck = True
                     bars[k, GOAL], bars[k, SPURT] = -(lag + when) * pull, (lag + when) * pull
-                    first = min(first, when)
+                    bars[k, WHEN] = when
         if not struck:
             break
+        _agree(w, m, h)
+        _aim(m, inverses(w), lag)
         if rows > 0:
-            # A blow runs through wires and pins at once, so all of a round is struck at one moment: the first,
-            # for what is struck too soon enters nothing.
-            earliest = max(earliest, first)
-            for k in range(contacts):
-                if whole[LIVE, k] == 1:
-                    real[TAU, k] = earliest
-            for k in range(rows):
-                bars[k, WHEN] = earliest
-        _aim(w, m)
+            bring_up_rows(w, m, place_of(m), vel)
         loss += _solve(w, m, rounds < ROUNDS)
         bring_up(w, m)
         rounds += 1
@@ -179,30 +171,82 @@ def _begin(m: Any) -> None:
 
 
 @part
-def _aim(w: Any, m: Any) -> None:
-    """Normals, levers and directions of what is struck, where bodies are at the moment of the blow: through other
-    points it would change their angular momentum."""
-    vel, real, whole, bars, shift = vel_of(m), real_of(m), whole_of(m), bars_of(m), shift_of(m)
-    place, turns, inverse = pos_of(m).copy(), turns_of(m).copy(), inverses(w)
-    for k in range(tally_of(m)[CONTACTS]):
+def _agree(w: Any, m: Any, h: float) -> None:
+    """All that is struck together is struck at one moment, the first of its blows: what is struck too soon enters
+    nothing, and a blow runs through wires and pins at once. Poses at that moment go to `place`."""
+    real, whole, bars, ends, since = real_of(m), whole_of(m), bars_of(m), ends_of(m), when_of(m)
+    pos, vel, shift, place, inverse = pos_of(m), vel_of(m), shift_of(m), place_of(m), inverses(w)
+    contacts, bodies = tally_of(m)[CONTACTS], len(pos)
+    group, first, last = np.arange(bodies), np.full(bodies, h), np.zeros(bodies)
+    for k in range(contacts):
         if whole[LIVE, k] == 1:
-            _place(m, whole[ONE, k], real[TAU, k], place, turns)
-            _place(m, whole[OTHER, k], real[TAU, k], place, turns)
-            renew(k, place, turns, inverse, real, whole)
-            real[RATE, k] = opening(real, whole, k, vel) + real[GAIN, k]
-    if len(bars) > 0:
-        for i in range(len(place)):
-            for q in range(3):
-                place[i, q] = pos_of(m)[i, q] + shift[i, q] + bars[0, WHEN] * vel[i, q]
-        bring_up_rows(w, m, place, vel)
+            _join(group, inverse, whole[ONE, k], whole[OTHER, k])
+    for k in range(m.rows):
+        if bars[k, ACTIVE] == 1.0 and bars[k, GOAL] > -np.inf:
+            _join(group, inverse, ends[k, 0], ends[k, 1])
+    for k in range(contacts):
+        if whole[LIVE, k] == 1:
+            for end in range(2):
+                at = _root(group, whole[ONE + end, k])
+                first[at] = min(first[at], real[TAU, k])
+    for k in range(m.rows):
+        for end in range(2):
+            at = _root(group, ends[k, end])
+            first[at] = min(first[at], bars[k, WHEN])
+    for i in range(bodies):
+        at = _root(group, i)
+        if inverse[i, 0] > 0.0 or inverse[i, 2] > 0.0:
+            last[at] = max(last[at], since[i])
+    for k in range(contacts):
+        if whole[LIVE, k] == 1:
+            real[TAU, k] = _moment(group, inverse, first, last, whole[ONE, k], whole[OTHER, k])
+    for k in range(m.rows):
+        bars[k, WHEN] = _moment(group, inverse, first, last, ends[k, 0], ends[k, 1])
+    for i in range(bodies):
+        at = _root(group, i)
+        when = max(first[at], last[at])
+        for q in range(3):
+            place[i, q] = pos[i, q] + shift[i, q] + when * vel[i, q]
 
 
 @part
-def _place(m: Any, i: int, when: float, place: FloatArray, turns: FloatArray) -> None:
-    pos, vel, shift = pos_of(m), vel_of(m), shift_of(m)
-    for q in range(3):
-        place[i, q] = pos[i, q] + shift[i, q] + when * vel[i, q]
-    turns[i, 0], turns[i, 1] = np.cos(place[i, 2]), np.sin(place[i, 2])
+def _root(group: IntArray, i: int) -> int:
+    while group[i] != i:
+        group[i] = group[group[i]]
+        i = group[i]
+    return i
+
+
+@part
+def _join(group: IntArray, inverse: FloatArray, i: int, j: int) -> None:
+    """Of two bodies that can both move."""
+    if (inverse[i, 0] > 0.0 or inverse[i, 2] > 0.0) and (inverse[j, 0] > 0.0 or inverse[j, 2] > 0.0):
+        one, other = _root(group, i), _root(group, j)
+        group[max(one, other)] = min(one, other)
+
+
+@part
+def _moment(
+    group: IntArray, inverse: FloatArray, first: FloatArray, last: FloatArray, i: int, j: int
+) -> float:
+    """When bodies i and j are struck: what is fixed says nothing."""
+    at = _root(group, i if inverse[i, 0] > 0.0 or inverse[i, 2] > 0.0 else j)
+    return max(first[at], last[at])
+
+
+@part
+def _aim(m: Any, inverse: FloatArray, lag: float) -> None:
+    """Normals and levers of what is struck, where bodies are at the moment of the blow: through other points it
+    would change their angular momentum."""
+    vel, acc, real, whole, place = vel_of(m), acc_of(m), real_of(m), whole_of(m), place_of(m)
+    turns = turns_of(m).copy()
+    for i in range(len(place)):
+        turns[i, 0], turns[i, 1] = np.cos(place[i, 2]), np.sin(place[i, 2])
+    for k in range(tally_of(m)[CONTACTS]):
+        if whole[LIVE, k] == 1:
+            renew(k, place, turns, inverse, real, whole)
+            real[GAIN, k] = (lag + real[TAU, k]) * opening(real, whole, k, acc)
+            real[RATE, k] = opening(real, whole, k, vel) + real[GAIN, k]
 
 
 @part

@@ -19,7 +19,8 @@ IntArray = NDArray[np.int64]
 
 class Crowd(NamedTuple):
     """pos, vel: poses now, velocities half a substep ago; acc: of the last kick; now: velocities now; before:
-    velocities before an impact; shift: what impacts within the substep add to the way; all (bodies + 1, 3)."""
+    velocities before an impact; shift: what impacts within the substep add to the way; place: poses at an
+    impact; all (bodies + 1, 3)."""
 
     pos: FloatArray
     vel: FloatArray
@@ -28,6 +29,7 @@ class Crowd(NamedTuple):
     before: FloatArray
     start: FloatArray
     shift: FloatArray
+    place: FloatArray
     force: FloatArray
     total: FloatArray
     turns: FloatArray
@@ -103,6 +105,7 @@ def crowd_of(world: World, names: Names, pos: FloatArray, vel: FloatArray, ledge
     arrays: tuple[NDArray[Any], ...] = (
         pos,
         vel,
+        flat(),
         flat(),
         vel,
         flat(),

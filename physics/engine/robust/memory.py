@@ -42,6 +42,7 @@ BLOCKS = (
     "before",
     "start",
     "shift",
+    "place",
     "force",
     "total",
     "turns",
@@ -90,6 +91,8 @@ start_of = LAYOUT.numbers("start", "bodies", 3)
 """(bodies, 3) velocities at the start of the substep."""
 shift_of = LAYOUT.numbers("shift", "bodies", 3)
 """(bodies, 3) what impacts within the substep add to the way."""
+place_of = LAYOUT.numbers("place", "bodies", 3)
+"""(bodies, 3) poses at the moment of an impact."""
 force_of = LAYOUT.numbers("force", "bodies", 3)
 """(bodies, 3) forces, constraints' apart, N, N, N m."""
 total_of = LAYOUT.numbers("total", "bodies", 3)

@@ -327,11 +327,21 @@ def _mark(m: Any, record: Record, since: float) -> None:
             if real[HIT, k] > 0.0 and when[i] != when[j]:
                 when[i] = when[j] = max(when[i], when[j])
                 uneven = True
+    earlier = False
+    for i in range(len(start)):
+        earlier = earlier or record.struck[at, i] >= 0.0
     for i in range(len(start)):
         if before[i, 0] != start[i, 0] or before[i, 1] != start[i, 1] or before[i, 2] != start[i, 2]:
             record.struck[at, i] = since + when[i]
             for q in range(3):
                 record.jump[at, i, q] += before[i, q] - start[i, q]
+    if earlier:
+        latest = 0.0
+        for i in range(len(start)):
+            latest = max(latest, record.struck[at, i])
+        for i in range(len(start)):
+            if record.struck[at, i] >= 0.0:
+                record.struck[at, i] = latest
 
 
 @part
