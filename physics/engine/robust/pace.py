@@ -175,7 +175,7 @@ def _begin(w: Any, m: Any, lag: float) -> None:
 
 
 @part
-def _sync(w: Any, m: Any, lag: float, kick: float) -> None:
+def _sync(w: Any, m: Any, lag: float, kick: float, struck: bool) -> None:
     """Accelerations by the kick, and velocities at its time."""
     vel, acc, now, start, before = vel_of(m), acc_of(m), now_of(m), start_of(m), before_of(m)
     inverse = inverses(w)
@@ -183,8 +183,8 @@ def _sync(w: Any, m: Any, lag: float, kick: float) -> None:
         for q in range(3):
             free = inverse[i, q] > 0.0
             acc[i, q] = (vel[i, q] - (before[i, q] if free else start[i, q])) / kick
-            # What is struck has another velocity at once; before that, it went on as it did.
-            if before[i, q] == start[i, q] or not free:
+            # What is struck has another velocity at once; before that, all went on as they did.
+            if not (struck and free):
                 now[i, q] = start[i, q] + lag * acc[i, q]
 
 
@@ -465,7 +465,7 @@ def run(
         watch_contacts(m, t, struck)
         _goals(w, m, h, kick, struck)
         heat = _kick(w, m, movable, kick)
-        _sync(w, m, lag, kick)
+        _sync(w, m, lag, kick, struck)
         if w.courses > 0:
             _sum_up(m, kick)
         # Heat and work of the kick, half of it before the time t.
