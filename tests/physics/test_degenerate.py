@@ -176,16 +176,7 @@ def test_a_disc_jammed_between_a_floor_and_a_ceiling_too_near_stays_finite_and_s
 # Mass ratios ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "mode",
-    [
-        "exact",
-        pytest.param(
-            "robust",
-            marks=pytest.mark.xfail(reason="robust mode throws a heavy box off a light one", strict=False),
-        ),
-    ],
-)
+@modes
 @pytest.mark.parametrize("masses", [(1e-3, 1e3), (1e3, 1e-3), (1.0, 1e6), (1e6, 1.0)])
 def test_a_stack_of_a_million_to_one_stays_and_carries_its_weight(
     masses: tuple[float, float], mode: Mode
@@ -283,9 +274,6 @@ def test_a_very_stiff_spring_and_a_very_soft_one_move_their_load_soundly() -> No
             assert off(moved.path("A")[:, 1], -1.0, 1.0) < 2.01 * G / stiffness
 
 
-@pytest.mark.xfail(
-    reason="exact mode hands over to robust mode, which lets the load into the wheel for a frame"
-)
 def test_a_load_pulled_up_to_its_pulley_and_beyond_stays_on_its_wire() -> None:
     scene = atwood(0.1, 5.0)
     moved = simulate(scene, 2)
