@@ -16,8 +16,8 @@ from sketch.ink import FloatArray
 
 IntArray = NDArray[np.int64]
 
-DEAREST = 4e6
-"""Multiplications that one factorization may cost; sweeps are cheaper than more (about 4 ms)."""
+DEAREST = 4e5
+"""Multiplications that one factorization may cost; sweeps are cheaper than more (about 0.4 ms)."""
 
 
 @part

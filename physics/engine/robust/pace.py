@@ -245,11 +245,12 @@ def _goals(w: Any, m: Any, h: float, kick: float, struck: bool) -> None:
             bars[k, ACTIVE], bars[k, GOAL], bars[k, LEAST], bars[k, MOST] = 1.0, 0.0, -most, most
             bars[k, IMPULSE] = min(max(bars[k, IMPULSE], -most), most)
             continue
-        off = row.gap + 0.5 * h * h * row.c
+        gap = row.gap
+        if gap < 0.0 or row.kind != CORD:
+            gap = min(max(gap, -CREEP), CREEP)
+        off = gap + 0.5 * h * h * row.c
         if struck:
             off += rate_of(jacobian, ends, k, shift)
-        if off < 0.0 or row.kind != CORD:
-            off = min(max(off, -CREEP), CREEP)
         bars[k, GOAL] = -off / h
 
 
