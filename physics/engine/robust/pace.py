@@ -2,8 +2,8 @@
 
 Leapfrog (position Verlet: Verlet 1967; with contacts: Moreau 1999): velocities live half a substep before
 poses, the first kick is half a one, so poses are exact for constant acceleration, along a flat incline
-too. A substep: impacts; a kick by all forces and the impulses that keep gaps open; a drift. A gap may
-close, but not more: its rate must be at least −gap / h, which is a drift of just that gap.
+too. A substep: poses put right; impacts; a kick by all forces and the impulses that keep gaps open; a
+drift. A gap may close, but not more: its rate must be at least −gap / h, which is a drift of just that gap.
 Wires and pins are held by the same law from both sides, with the rate that their bending adds (SHAKE:
 Ryckaert, Ciccotti and Berendsen 1977).
 

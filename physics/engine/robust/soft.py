@@ -3,8 +3,8 @@
 Projected Gauss-Seidel (Moreau 1988; Jean and Moreau 1992): each takes the impulse that makes its own
 rate right, clamped to what it may be: a contact only pushes, friction stays within Coulomb's bound.
 Sweeps go forth and back and begin with the last substep's impulses, which are the answer wherever
-nothing changes. Overlap is let out by a soft contact's law of position alone (Catto 2024, "Solver2D"):
-what it moves gains no speed, so no energy of motion.
+nothing changes. Where that has not settled after a few rounds all active rows are solved at once
+(physics.engine.robust.leap), and sweeps go on from there.
 """
 
 from __future__ import annotations
