@@ -21,13 +21,13 @@ from physics.engine.cells import head
 from physics.engine.forces import add, clearance, powers, put
 from physics.engine.robust.collide import FAST, strike
 from physics.engine.robust.crowd import Record
-from physics.engine.robust.manifold import GAP, HIT, NX, NY, ONE, OTHER, PAIR, PN, PT, PX, PY, TARGET
+from physics.engine.robust.keep import keep, mark
+from physics.engine.robust.manifold import GAP, NX, NY, ONE, OTHER, PN, PT, TARGET
 from physics.engine.robust.memory import (
     ACTIVE,
     CONTACTS,
     DONE,
     EVENTS,
-    FORCE,
     GOAL,
     IMPULSE,
     LANDED,
@@ -74,7 +74,6 @@ from physics.engine.tables import (
     course_of,
     inverses,
     masses,
-    pair_of,
     reaches,
     support_of,
     value,
@@ -314,110 +313,6 @@ def _landed(m: Any) -> None:
             tally[LANDED] = 1
 
 
-@part
-def _mark(m: Any, record: Record, since: float) -> None:
-    """Keeps when bodies were struck. since: the last record, s."""
-    start, before, when, at = start_of(m), before_of(m), when_of(m), tally_of(m)[RECORDS] - 1
-    real, whole, contacts = real_of(m), whole_of(m), tally_of(m)[CONTACTS]
-    uneven = True
-    while uneven:
-        # What one blow after another joined is shown struck at once, for momentum goes from one to another.
-        uneven = False
-        for k in range(contacts):
-            i, j = whole[ONE, k], whole[OTHER, k]
-            if real[HIT, k] > 0.0 and when[i] != when[j]:
-                when[i] = when[j] = max(when[i], when[j])
-                uneven = True
-    earlier = False
-    for i in range(len(start)):
-        earlier = earlier or record.struck[at, i] >= 0.0
-    for i in range(len(start)):
-        if before[i, 0] != start[i, 0] or before[i, 1] != start[i, 1] or before[i, 2] != start[i, 2]:
-            record.struck[at, i] = since + when[i]
-            for q in range(3):
-                record.jump[at, i, q] += before[i, q] - start[i, q]
-    if earlier:
-        latest = 0.0
-        for i in range(len(start)):
-            latest = max(latest, record.struck[at, i])
-        for i in range(len(start)):
-            if record.struck[at, i] >= 0.0:
-                record.struck[at, i] = latest
-
-
-@part
-def _keep(w: Any, m: Any, record: Record, kick: float) -> None:
-    tally, bars, ledger, rows = tally_of(m), bars_of(m), ledger_of(m), m.rows
-    at = tally[RECORDS]
-    _copy(pos_of(m), record.pos, at)
-    _copy(now_of(m), record.vel, at)
-    _copy(acc_of(m), record.acc, at)
-    for k in range(m.entries):
-        record.ledger[at, k] = ledger[k]
-    for k in range(rows):
-        record.pulls[at, k] = bars[k, IMPULSE] / kick
-    tally[PRESSED] = _press_on(
-        w,
-        real_of(m),
-        whole_of(m),
-        tally[CONTACTS],
-        record.pairs,
-        record.forces,
-        tally[PRESSED],
-        kick,
-    )
-    record.ends[at] = tally[PRESSED]
-    for i in range(record.struck.shape[1]):
-        record.struck[at, i] = -1.0
-        for q in range(3):
-            record.jump[at, i, q] = 0.0
-    tally[RECORDS] = at + 1
-
-
-@part
-def _copy(now: FloatArray, kept: FloatArray, at: int) -> None:
-    for i in range(len(now)):
-        for q in range(3):
-            kept[at, i, q] = now[i, q]
-
-
-@part
-def _press_on(
-    w: Any,
-    real: FloatArray,
-    whole: IntArray,
-    contacts: int,
-    numbers: NDArray[np.int32],
-    forces: FloatArray,
-    pressed: int,
-    kick: float,
-) -> int:
-    """Adds the forces of pairs that press, each at its centre of pressure; how many there are now."""
-    last = -1
-    weight = 0.0
-    for k in range(contacts):
-        normal, along = real[PN, k], real[PT, k]
-        if normal <= 0.0:
-            continue
-        pair = whole[PAIR, k]
-        if pair != last:
-            last, weight = pair, 0.0
-            numbers[pressed] = pair
-            for q in range(FORCE):
-                forces[pressed, q] = 0.0
-            pressed += 1
-        at = pressed - 1
-        sign = (1.0 if whole[OTHER, k] == pair_of(w, pair).j else -1.0) / kick
-        forces[at, 0] += sign * real[NX, k] * normal
-        forces[at, 1] += sign * real[NY, k] * normal
-        forces[at, 2] -= sign * real[NY, k] * along
-        forces[at, 3] += sign * real[NX, k] * along
-        weight += normal
-        forces[at, 4] += (real[PX, k] - forces[at, 4]) * normal / weight
-        forces[at, 5] += (real[PY, k] - forces[at, 5]) * normal / weight
-    return pressed
-
-
 @kernel
 def run(
     cells: FloatArray,
@@ -474,9 +369,9 @@ def run(
         for k in range(len(ledger)):
             ledger[k] += lag * power[k]
         if done % each == 0:
-            _keep(w, m, record, kick)
+            keep(w, m, record, kick)
         if struck:
-            _mark(m, record, (done % each) * h)
+            mark(m, record, (done % each) * h)
         _landed(m)
         for k in range(len(ledger)):
             ledger[k] += 0.5 * h * power[k]

@@ -164,7 +164,10 @@ class RobustRun:
         """Energy that the steps themselves have taken (negative: given), (T,) J: errors of their length, poses put
         right. It is the part of the ledger's heat that neither rubbing nor damping nor an impact made."""
         at, share = self._places(times)
-        found, since = self.record.ledger, self.start + self.pitch * np.arange(self._records())
+        found, since = (
+            self.record.ledger,
+            self.start + self.pitch * np.arange(self._records(), dtype=np.float64),
+        )
         heat = self.ledger(since)[:, 0] - found[: len(since), 0]
         after = np.minimum(at + 1, len(since) - 1)
         return heat[at] + share * (heat[after] - heat[at])
