@@ -5,12 +5,15 @@ word, and counted. So a cluster's tables lie behind one another in one array of 
 a record that says how many there are of each and where they begin (in bytes). Inside kernels `head`
 gives that record, which is a bare pointer; the accessors that a `Layout` makes, `line` and `integers`
 give what lies behind it. They own nothing: the array must outlive the call. Python sees the same
-memory through ordinary numpy views (`Layout.view`).
+memory through ordinary numpy views (`Plan.view`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from math import prod
 from typing import Any, cast
 
 import numpy as np
@@ -24,60 +27,98 @@ from sketch.ink import FloatArray
 
 CELL = 8
 """Bytes."""
+REAL, WHOLE = np.dtype(np.float64), np.dtype(np.int64)
+"""Types of the entries of a block."""
+PLANS = 4096
+"""Plans of a layout that are remembered: scenes of one kind have the same few again and again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """Where the blocks of a layout lie for certain counts. head: its cells; size: of all, in cells; places: of
+    each block its first byte, type and shape; nothing: blocks without entries, the same for everyone."""
+
+    head: FloatArray
+    size: int
+    places: dict[str, tuple[int, np.dtype[Any], tuple[int, ...]]]
+    nothing: dict[str, NDArray[Any]]
+
+    def fresh(self) -> FloatArray:
+        """Cells in which everything but the head is zero."""
+        cells = np.zeros(self.size)
+        cells[: len(self.head)] = self.head
+        return cells
+
+    def filled(self, arrays: Iterable[NDArray[Any]]) -> list[NDArray[Any]]:
+        """Copies of all blocks, in order, within cells of their own, which come last."""
+        cells = self.fresh()
+        views = self.views(cells)
+        for view, array in zip(views, arrays, strict=True):
+            if array.size:
+                view[...] = array
+        return [*views, cells]
+
+    def view(self, cells: FloatArray, name: str) -> NDArray[Any]:
+        """The block of that name within the cells."""
+        at, dtype, shape = self.places[name]
+        return np.ndarray(shape, dtype, cells, at)
+
+    def views(self, cells: FloatArray) -> list[NDArray[Any]]:
+        """All blocks, in order."""
+        nothing = self.nothing
+        return [
+            nothing[name] if name in nothing else np.ndarray(shape, dtype, cells, at)
+            for name, (at, dtype, shape) in self.places.items()
+        ]
 
 
 class Layout:
     """The plan of one piece of memory: fields are named blocks, in order, behind a head of their offsets.
 
-    `dtype` of the head: for each block its first byte, `NAME_at`; then the counts named in `counts`.
+    blocks: of each the type of its entries and its shape, in numbers and names of counts. `dtype` of the head:
+    for each block its first byte, `NAME_at`; then the counts named in `counts`.
     """
 
-    def __init__(self, blocks: tuple[str, ...], counts: tuple[str, ...]) -> None:
+    def __init__(
+        self, blocks: Mapping[str, tuple[np.dtype[Any], tuple[int | str, ...]]], counts: tuple[str, ...]
+    ) -> None:
         self.blocks, self.counts = blocks, counts
         self.head = np.dtype(
             [(f"{name}_at", np.int64) for name in blocks] + [(name, np.int64) for name in counts]
         )
+        self.plan = lru_cache(PLANS)(self._plan)
 
-    def laid(self, counts: dict[str, int], arrays: dict[str, NDArray[Any]]) -> FloatArray:
-        """One array of cells that holds copies of all blocks."""
+    def _plan(self, *counts: int) -> Plan:
+        """The plan for so many of each, in the order of `self.counts`."""
+        known = dict(zip(self.counts, counts, strict=True))
         at = self.head.itemsize
-        head = np.zeros(1, self.head)
-        for name, count in counts.items():
-            head[name] = count
-        for name in self.blocks:
-            head[f"{name}_at"] = at
-            at += arrays[name].nbytes
-        cells = np.zeros(at // 8)
-        cells[: self.head.itemsize // 8] = head.view(np.float64)
-        for name in self.blocks:
-            start = int(head[f"{name}_at"][0]) // 8
-            block = np.ascontiguousarray(arrays[name])
-            cells[start : start + block.nbytes // 8] = block.view(np.float64).ravel() if block.size else 0.0
-        return cells
+        places: dict[str, tuple[int, np.dtype[Any], tuple[int, ...]]] = {}
+        for name, (dtype, lengths) in self.blocks.items():
+            shape = tuple(known[length] if isinstance(length, str) else length for length in lengths)
+            places[name] = (at, dtype, shape)
+            at += dtype.itemsize * prod(shape)
+        nothing = {
+            name: np.zeros(shape, dtype) for name, (_, dtype, shape) in places.items() if not prod(shape)
+        }
+        numbers = [place[0] for place in places.values()] + list(counts)
+        return Plan(np.array(numbers, np.int64).view(np.float64), at // CELL, places, nothing)
 
-    def head_of(self, cells: FloatArray) -> NDArray[Any]:
-        """The head of such cells, as one record."""
-        return cells[: self.head.itemsize // 8].view(self.head)[0]
+    def plan_of(self, cells: FloatArray) -> Plan:
+        """The plan that such cells were made by."""
+        numbers = cells[len(self.blocks) : len(self.blocks) + len(self.counts)].view(np.int64)
+        return self.plan(*numbers.tolist())
 
-    def view(self, cells: FloatArray, name: str, like: NDArray[Any]) -> NDArray[Any]:
-        """The block of that name within the cells, shaped and typed as `like`."""
-        start = int(self.head_of(cells)[f"{name}_at"]) // 8
-        return cells[start : start + like.nbytes // 8].view(like.dtype).reshape(like.shape)
+    def numbers(self, name: str) -> Callable[[Any], FloatArray]:
+        """For kernels: from the head, the block of float64 of that name, which has one or two sizes."""
+        return self._block(name, types.float64)
 
-    def numbers(self, name: str, *shape: int | str) -> Callable[[Any], FloatArray]:
-        """For kernels: from the head, the block of float64 of that name.
-
-        shape: one or two sizes, or the names of counts."""
-        return self._block(name, types.float64, shape)
-
-    def integers(self, name: str, *shape: int | str) -> Callable[[Any], Any]:
+    def integers(self, name: str) -> Callable[[Any], Any]:
         """The same for a block of int64."""
-        return self._block(name, types.int64, shape)
+        return self._block(name, types.int64)
 
-    def lines(self, name: str, *shape: int | str) -> Callable[[Any, int], FloatArray]:
-        """For kernels: from the head and k, part k of the block of float64 of that name, flat.
-
-        shape: of one part."""
+    def lines(self, name: str) -> Callable[[Any, int], FloatArray]:
+        """For kernels: from the head and k, part k of the block of float64 of that name, flat."""
+        shape = self.blocks[name][1][1:]
         begin, sizes = self._at(f"{name}_at"), self._sizes(shape)
         kind = types.Array(types.float64, 1, "C")
 
@@ -95,8 +136,9 @@ class Layout:
 
         return _compiled(part)
 
-    def records(self, name: str, dtype: np.dtype[Any]) -> Callable[[Any, int], Any]:
+    def records(self, name: str) -> Callable[[Any, int], Any]:
         """For kernels: from the head and k, record k of the block of that name."""
+        dtype = self.blocks[name][0]
         begin, kind = self._at(f"{name}_at"), from_dtype(dtype)
 
         def record(_typing: Any, start: Any, _k: Any) -> Any:
@@ -109,7 +151,8 @@ class Layout:
 
         return _compiled(record)
 
-    def _block(self, name: str, dtype: Any, shape: tuple[int | str, ...]) -> Callable[[Any], Any]:
+    def _block(self, name: str, dtype: Any) -> Callable[[Any], Any]:
+        shape = self.blocks[name][1]
         begin, sizes = self._at(f"{name}_at"), self._sizes(shape)
         kind = types.Array(dtype, len(shape), "C")
 

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from physics.engine.exact.touch import gaps_between
-from physics.engine.world import Names, World, start_of, world_of
+from physics.engine.world import IntArray, Names, World, start_of
 from physics.scene import Block, Body, Disc, Scene
 from sketch.ink import FloatArray
 
@@ -25,6 +24,8 @@ GRID = 1 / 120
 """s: the coarsest grid on which gaps are looked at."""
 FINEST = 4096
 """Places in an epoch, at most: a bullet of 1 mm at 16 m/s."""
+Tables = Callable[[tuple[str, ...]], tuple[World, Names]]
+
 CLOSED = -1e-9
 """m: gaps below this have closed."""
 
@@ -38,20 +39,24 @@ class Meeting:
     second: Strand
 
 
-def first_meeting(scene: Scene, strands: Sequence[Strand], begin: float, end: float) -> Meeting | None:
-    """The first meeting of any two clusters within (begin, end], all of which have been simulated so far."""
+def first_meeting(
+    scene: Scene, strands: Sequence[Strand], begin: float, end: float, tables: Tables
+) -> Meeting | None:
+    """The first meeting of any two clusters within (begin, end], all of which have been simulated so far.
+    tables: the world of such movable bodies."""
     times = np.linspace(begin, end, max(2, int(np.ceil((end - begin) / GRID)) + 1))
     bodies = {body.label: body for body in scene.bodies}
     paths: list[tuple[FloatArray, FloatArray]] = [_paths(strand, times) for strand in strands]
     boxes = [_box(strand, path, bodies) for strand, path in zip(strands, paths, strict=True)]
     best: Meeting | None = None
-    for (a, one), (b, other) in combinations(enumerate(strands), 2):
+    low, high = np.array([low for low, _ in boxes]), np.array([high for _, high in boxes])
+    apart = np.any((low[:, None] > high[None]) | (low[None] > high[:, None]), axis=2)
+    for a, b in np.argwhere(np.triu(~apart, 1)).tolist():
+        one, other = strands[a], strands[b]
         if (one.run.time < end and one.run.stopped) or (other.run.time < end and other.run.stopped):
             continue
-        if np.any(boxes[a][0] > boxes[b][1]) or np.any(boxes[b][0] > boxes[a][1]):
-            continue
         limit = end if best is None else best.time
-        when = _first_of(scene, one, other, begin, limit, bodies)
+        when = _first_of(scene, one, other, begin, limit, bodies, tables)
         if when is not None and (best is None or when < best.time):
             best = Meeting(when, one, other)
     return best
@@ -66,6 +71,8 @@ def _paths(strand: Strand, times: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 def states_of(strand: Strand, times: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Poses and velocities of a cluster's world at ascending times, from the runs that it had then."""
+    if len(strand.runs) == 1:
+        return strand.run.states(times)
     starts = [run.start for run in strand.runs]
     which = np.clip(np.searchsorted(starts, times, side="right") - 1, 0, None)
     parts = [strand.runs[k].states(times[which == k]) for k in np.unique(which)]
@@ -85,14 +92,20 @@ def _box(
 
 
 def _first_of(
-    scene: Scene, one: Strand, other: Strand, begin: float, end: float, bodies: dict[str, Body]
+    scene: Scene,
+    one: Strand,
+    other: Strand,
+    begin: float,
+    end: float,
+    bodies: dict[str, Body],
+    tables: Tables,
 ) -> float | None:
     """When the first bodies of two clusters meet, s."""
     begin = max(begin, one.runs[0].start, other.runs[0].start)
     if end <= begin:
         return None
     members = (*one.members, *other.members)
-    world, names = world_of(scene, members)
+    world, names = tables(members)
     start, _ = start_of(scene, names)
     coarse = np.linspace(begin, end, max(2, int(np.ceil((end - begin) / GRID)) + 1))
     fastest = max(float(np.abs(states_of(s, coarse)[1]).max()) for s in (one, other))
@@ -122,10 +135,14 @@ def _joined(names: Names, start: FloatArray, strands: tuple[Strand, Strand], tim
     pos = np.broadcast_to(start, (len(times), *start.shape)).copy()
     for strand in strands:
         places, _ = states_of(strand, times)
-        own = strand.run.names
-        rows = [names.bodies.index(label) for label in own.bodies[: own.movable]]
-        pos[:, rows] = places[:, : own.movable]
+        pos[:, _rows(strand, names)] = places[:, : strand.run.names.movable]
     return pos
+
+
+def _rows(strand: Strand, names: Names) -> IntArray:
+    """Where a cluster's movable bodies stand in a world of more."""
+    own = strand.run.names
+    return np.array([names.bodies.index(label) for label in own.bodies[: own.movable]])
 
 
 def _closing(
@@ -142,9 +159,16 @@ def _closing(
     # Here, for it takes long to import and lone clusters never need it.
     from scipy.optimize import minimize_scalar
 
+    pos, found = start[None].copy(), np.zeros(1)
+    movers = [(strand, _rows(strand, names)) for strand in strands]
+
     def gap(t: float) -> float:
-        found = np.zeros(1)
-        gaps_between(world.cells, _joined(names, start, strands, np.array([t])), i, j, found)
+        for strand, rows in movers:
+            if len(strand.runs) == 1:
+                strand.run.place(t, rows, pos[0])
+            else:
+                pos[0, rows] = states_of(strand, np.array([t]))[0][0, : len(rows)]
+        gaps_between(world.cells, pos, i, j, found)
         return float(found[0])
 
     if gaps[0] < CLOSED:

@@ -20,13 +20,14 @@ from math import floor, inf, isfinite
 
 import numpy as np
 
-from physics.engine.exact.run import ExactRun, TooMuch, separate
+from physics.engine.exact.run import ExactRun
+from physics.engine.exact.standing import TooMuch, separate
 from physics.engine.exact.tell import Teller
 from physics.engine.exact.touch import TOUCHING, near_pairs
 from physics.engine.meetings import Meeting, first_meeting
 from physics.engine.robust.run import RobustRun
 from physics.engine.source import SceneSource
-from physics.engine.world import Names, World, start_of, world_of
+from physics.engine.world import Names, World, copied, start_of, world_of
 from physics.scene import Scene, SceneError
 from physics.trajectory import Event, Mode, Trajectory
 from sketch.ink import FloatArray
@@ -71,13 +72,15 @@ class Simulation:
         self.scene, self.mode, self.accuracy = scene, mode, accuracy
         self.time = 0.0
         self.strands: list[Strand] = []
+        self.known: dict[frozenset[str], tuple[World, Names]] = {}
         labels = tuple(body.label for body in scene.bodies if not body.fixed)
         if labels:
-            world, names = world_of(scene, labels)
-            _refuse_too_stiff(world)
+            world, names = self._tables(labels)
+            if scene.springs:
+                _refuse_too_stiff(world)
             groups = _clusters(scene, labels, world, names)
             for group in groups:
-                made = (world, names) if len(groups) == 1 else world_of(scene, group)
+                made = self._fresh(group)
                 pos, vel = start_of(scene, made[1])
                 notes: list[Event] = []
                 if mode == "robust":
@@ -124,6 +127,18 @@ class Simulation:
             source,
         )
 
+    def _tables(self, members: tuple[str, ...]) -> tuple[World, Names]:
+        """The world of such movable bodies as it is at the start; not to be changed."""
+        key = frozenset(members)
+        if key not in self.known:
+            self.known[key] = world_of(self.scene, members)
+        return self.known[key]
+
+    def _fresh(self, members: tuple[str, ...]) -> tuple[World, Names]:
+        """The same, for a run to change."""
+        world, names = self._tables(members)
+        return copied(world), names
+
     def _live(self) -> list[Strand]:
         return [strand for strand in self.strands if strand.end == inf]
 
@@ -169,7 +184,7 @@ class Simulation:
         """Merges clusters that meet before `until`, the first to meet first."""
         while True:
             live = self._live()
-            found = first_meeting(self.scene, live, self.time, until)
+            found = first_meeting(self.scene, live, self.time, until, self._tables)
             if found is None:
                 return
             self._merge(found)
@@ -181,7 +196,7 @@ class Simulation:
         members = tuple(
             body.label for body in self.scene.bodies if any(body.label in strand.members for strand in both)
         )
-        world, names = world_of(self.scene, members)
+        world, names = self._fresh(members)
         pos, vel = start_of(self.scene, names)
         robust = False
         for strand in both:

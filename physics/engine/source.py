@@ -31,21 +31,21 @@ class SceneSource:
 
     def states(self, times: FloatArray) -> tuple[FloatArray, FloatArray]:
         """See `physics.trajectory.Source`."""
-        column = {body.label: k for k, body in enumerate(self.scene.bodies)}
-        poses = np.zeros((len(times), len(column), 3))
-        velocities = np.zeros_like(poses)
-        for body in self.scene.bodies:
-            poses[:, column[body.label]] = (*body.position, body.angle)
-        held = np.minimum(times, self.stopped)
+        bodies = self.scene.bodies
+        column = {body.label: k for k, body in enumerate(bodies)}
+        poses, velocities = np.empty((len(times), len(bodies), 3)), np.zeros((len(times), len(bodies), 3))
+        poses[:] = np.array([(*body.position, body.angle) for body in bodies], float).reshape(-1, 3)
+        held = times if self.stopped == inf else np.minimum(times, self.stopped)
         for strand in self.strands:
-            here = self._within(strand, held)
-            if here.any():
-                pos, vel = states_of(strand, held[here])
-                names = strand.run.names
-                columns = np.array([column[label] for label in names.bodies[: names.movable]])
-                poses[np.ix_(here, columns)] = pos[:, : names.movable]
-                velocities[np.ix_(here, columns)] = vel[:, : names.movable]
-        velocities[times > self.stopped] = 0.0
+            names = strand.run.names
+            columns = [column[label] for label in names.bodies[: names.movable]]
+            begin, end = self._frames(strand, held)
+            if begin < end:
+                pos, vel = states_of(strand, held[begin:end])
+                poses[begin:end, columns] = pos[:, : names.movable]
+                velocities[begin:end, columns] = vel[:, : names.movable]
+        if self.stopped < inf:
+            velocities[times > self.stopped] = 0.0
         return poses, velocities
 
     def observe(self, times: FloatArray) -> Observed:
@@ -86,6 +86,12 @@ class SceneSource:
         worked = np.sum(list(works.values()), axis=0) if works else np.zeros(len(times))
         energy = Energy(ledger[:, 0], ledger[:, 1], ledger[:, 2], heat, worked, works)
         return Observed(accelerations, series, energy, anchors)
+
+    def _frames(self, strand: Strand, times: FloatArray) -> tuple[int, int]:
+        """The first of the frames that a cluster tells of, and the first after them."""
+        begun = strand.runs[0].start
+        begin = int(times.searchsorted(begun)) if begun > 0.0 else 0
+        return begin, len(times) if strand.end == inf else int(times.searchsorted(strand.end))
 
     def _within(self, strand: Strand, times: FloatArray) -> np.ndarray:
         begun = strand.runs[0].start

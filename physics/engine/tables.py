@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from physics.engine.cells import Layout
+from physics.engine.cells import REAL, WHOLE, Layout
 from physics.formula.kernel import branches, evaluate
 from physics.jit import part
 from sketch.ink import FloatArray
@@ -43,29 +43,29 @@ COURSE = np.dtype(
 )
 """A student's equation of motion for one coordinate; programs, −1: none."""
 
-BLOCKS = (
-    "gravity",
-    "mass",
-    "inverse",
-    "radius",
-    "first",
-    "sides",
-    "reach",
-    "corners",
-    "normals",
-    "edges",
-    "links",
-    "pairs",
-    "pushes",
-    "supports",
-    "courses",
-    "ops",
-    "args",
-    "who",
-    "spans",
-    "switches",
-    "stack",
-)
+BLOCKS = {
+    "gravity": (REAL, (2,)),
+    "mass": (REAL, ("bodies", 3)),
+    "inverse": (REAL, ("bodies", 3)),
+    "radius": (REAL, ("bodies",)),
+    "first": (WHOLE, ("bodies",)),
+    "sides": (WHOLE, ("bodies",)),
+    "reach": (REAL, ("bodies",)),
+    "corners": (REAL, ("vertices", 2)),
+    "normals": (REAL, ("vertices", 2)),
+    "edges": (REAL, ("vertices",)),
+    "links": (LINK, ("links",)),
+    "pairs": (PAIR, ("pairs",)),
+    "pushes": (PUSH, ("pushes",)),
+    "supports": (SUPPORT, ("supports",)),
+    "courses": (COURSE, ("courses",)),
+    "ops": (WHOLE, ("code",)),
+    "args": (REAL, ("code",)),
+    "who": (WHOLE, ("code",)),
+    "spans": (WHOLE, ("programs", 2)),
+    "switches": (WHOLE, ("programs",)),
+    "stack": (REAL, ("depth",)),
+}
 COUNTS = (
     "bodies",
     "movable",
@@ -85,42 +85,42 @@ WORLD = LAYOUT.head
 PUSHED = 0
 """The opcode of a number in a program (physics.formula.kernel)."""
 
-gravity = LAYOUT.numbers("gravity", 2)
+gravity = LAYOUT.numbers("gravity")
 """(2,) m/s²."""
-masses = LAYOUT.numbers("mass", "bodies", 3)
+masses = LAYOUT.numbers("mass")
 """(bodies, 3) kg, kg, kg m²."""
-inverses = LAYOUT.numbers("inverse", "bodies", 3)
+inverses = LAYOUT.numbers("inverse")
 """(bodies, 3) 1 / mass; zero for what is fixed and along a course."""
-radii = LAYOUT.numbers("radius", "bodies")
+radii = LAYOUT.numbers("radius")
 """(bodies,) m."""
-firsts = LAYOUT.integers("first", "bodies")
+firsts = LAYOUT.integers("first")
 """(bodies,) first corner."""
-counts = LAYOUT.integers("sides", "bodies")
+counts = LAYOUT.integers("sides")
 """(bodies,) number of corners; none: a disc."""
-reaches = LAYOUT.numbers("reach", "bodies")
+reaches = LAYOUT.numbers("reach")
 """(bodies,) m."""
-corners = LAYOUT.numbers("corners", "vertices", 2)
+corners = LAYOUT.numbers("corners")
 """(vertices, 2) m."""
-normals = LAYOUT.numbers("normals", "vertices", 2)
+normals = LAYOUT.numbers("normals")
 """(vertices, 2)."""
-edges = LAYOUT.numbers("edges", "vertices")
+edges = LAYOUT.numbers("edges")
 """(vertices,) m."""
-link_of = LAYOUT.records("links", LINK)
+link_of = LAYOUT.records("links")
 """Link k."""
-pair_of = LAYOUT.records("pairs", PAIR)
+pair_of = LAYOUT.records("pairs")
 """Pair k."""
-push_of = LAYOUT.records("pushes", PUSH)
+push_of = LAYOUT.records("pushes")
 """Student's force k."""
-support_of = LAYOUT.records("supports", SUPPORT)
+support_of = LAYOUT.records("supports")
 """Given normal force k."""
-course_of = LAYOUT.records("courses", COURSE)
+course_of = LAYOUT.records("courses")
 """Course k."""
-_ops = LAYOUT.integers("ops", "code")
-_args = LAYOUT.numbers("args", "code")
-_who = LAYOUT.integers("who", "code")
-_spans = LAYOUT.integers("spans", "programs", 2)
-_switches = LAYOUT.integers("switches", "programs")
-_stack = LAYOUT.numbers("stack", "depth")
+_ops = LAYOUT.integers("ops")
+_args = LAYOUT.numbers("args")
+_who = LAYOUT.integers("who")
+_spans = LAYOUT.integers("spans")
+_switches = LAYOUT.integers("switches")
+_stack = LAYOUT.numbers("stack")
 
 
 @part

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
+from itertools import accumulate
 from math import cos, hypot, inf, sin, sqrt
 from typing import Any, NamedTuple
 
@@ -18,7 +20,18 @@ from numpy.typing import NDArray
 from physics.engine.tables import COURSE, LAYOUT, LINK, PAIR, PUSH, SUPPORT
 from physics.formula.kernel import Packed, pack
 from physics.formula.program import Program
-from physics.scene import Anchor, Body, Disc, Material, Scene, SpringLink, WireLink
+from physics.scene import (
+    Anchor,
+    Block,
+    Body,
+    Course,
+    Disc,
+    Material,
+    Scene,
+    SpringLink,
+    Vector,
+    WireLink,
+)
 from sketch.ink import FloatArray
 
 IntArray = NDArray[np.int64]
@@ -68,7 +81,7 @@ class World(NamedTuple):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickled as its tables, which are views of one memory again when they are read."""
-        return gathered, (self[:-1], int(LAYOUT.head_of(self.cells)["movable"]))
+        return viewed, (self.cells,)
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,41 +120,33 @@ def world_of(scene: Scene, members: Sequence[str]) -> tuple[World, Names]:
     links = [
         link for link in (*scene.springs, *scene.wires, *scene.pins) if ours(link.start.body, link.end.body)
     ]
-    table = np.zeros(len(links), LINK)
-    for row, link in zip(table, links, strict=True):
+    rows: list[tuple[Any, ...]] = []
+    for link in links:
         i, j = end(link.start), end(link.end)
-        row["i"], row["j"] = i, j
-        row["ax"], row["ay"] = link.start.point
-        row["bx"], row["by"] = link.end.point
-        row["tension"], row["over"], row["limit"] = -1, -1, inf
-        row["reader"] = i if i < len(bodies) else j
+        kind, tension, over, sense = PIN, -1, -1, 0.0
+        rest = stiffness = damping = tolerance = 0.0
+        limit = inf
+        reader = i if i < len(bodies) else j
         if isinstance(link, WireLink):
-            row["kind"], row["rest"], row["tolerance"] = WIRE, link.rest, link.tolerance
-            row["limit"] = inf if link.limit is None else link.limit
+            kind, rest, tolerance = WIRE, link.rest, link.tolerance
+            limit = inf if link.limit is None else link.limit
             if link.tension is not None:
-                row["tension"] = programs.add(link.tension, int(row["reader"]))
+                tension = programs.add(link.tension, reader)
             if link.over is not None:
-                row["over"], row["sense"] = number[link.over.body], -1.0 if link.over.clockwise else 1.0
+                over, sense = number[link.over.body], -1.0 if link.over.clockwise else 1.0
         elif isinstance(link, SpringLink):
-            row["kind"], row["rest"] = SPRING, link.rest
-            row["stiffness"], row["damping"] = link.stiffness, link.damping
-        else:
-            row["kind"] = PIN
+            kind, rest, stiffness, damping = SPRING, link.rest, link.stiffness, link.damping
+        indices = (kind, i, j, tension, reader, over, 0)
+        sizes = (rest, stiffness, damping, tolerance, limit, sense)
+        rows.append((*indices, *link.start.point, *link.end.point, *sizes))
     pushes = [force for force in scene.forces if force.body in chosen]
-    push_table = np.zeros(len(pushes), PUSH)
-    for row, push in zip(push_table, pushes, strict=True):
-        at = number[push.body]
-        row["body"], row["x"], row["y"] = at, programs.add(push.x, at), programs.add(push.y, at)
+    pushed = [
+        (at, programs.add(push.x, at), programs.add(push.y, at))
+        for push in pushes
+        for at in (number[push.body],)
+    ]
     courses = [course for course in scene.courses if course.body in chosen]
-    course_table = np.zeros(len(courses), COURSE)
-    for row, course in zip(course_table, courses, strict=True):
-        at = number[course.body]
-        row["body"], row["axis"], row["on"] = at, 0 if course.axis == "x" else 1, 1
-        row["position"] = -1 if course.position is None else programs.add(course.position, at)
-        row["velocity"], row["acceleration"] = (
-            programs.add(course.velocity, at),
-            programs.add(course.acceleration, at),
-        )
+    followed = [_course(course, number[course.body], programs) for course in courses]
     supports = [support for support in scene.supports if ours(support.body, support.on)]
     support_table = np.zeros(len(supports), SUPPORT)
     for row, support in zip(support_table, supports, strict=True):
@@ -156,18 +161,28 @@ def world_of(scene: Scene, members: Sequence[str]) -> tuple[World, Names]:
             row["nx"], row["ny"] = (y2 - y1) / length, (x1 - x2) / length
     packed = programs.packed()
     mass, inverse = _masses(everyone, len(bodies))
-    for row in course_table:
-        inverse[row["body"], row["axis"]] = 0.0
+    for body, axis, *_ in followed:
+        inverse[body, axis] = 0.0
+    outlines = [_outline(body.shape) for body in everyone]
+    pinned = {(min(i, j), max(i, j)) for kind, i, j, *_ in rows if kind == PIN}
+    held = {
+        (min(i, j), max(i, j)): k
+        for k, (i, j) in enumerate((number[support.body], number[support.on]) for support in supports)
+    }
+    pairs = _pairs(everyone, len(bodies), outlines, pinned, held)
+    for k, pair in enumerate(pairs):
+        if pair[2] >= 0:
+            support_table[pair[2]]["pair"] = k
     arrays: tuple[NDArray[Any], ...] = (
         np.asarray(scene.gravity, float),
         mass,
         inverse,
-        *_shapes(everyone),
-        table,
-        _pairs(everyone, len(bodies), table, support_table),
-        push_table,
+        *_shapes(outlines),
+        np.array(rows, LINK),
+        np.array(pairs, PAIR),
+        np.array(pushed, PUSH),
         support_table,
-        course_table,
+        np.array(followed, COURSE),
         packed.ops,
         packed.args,
         packed.who,
@@ -192,35 +207,41 @@ def world_of(scene: Scene, members: Sequence[str]) -> tuple[World, Names]:
 def gathered(arrays: Sequence[NDArray[Any]], movable: int) -> World:
     """A world of copies of these arrays (the fields of `World` but the last), in one piece of memory."""
     named = dict(zip(World._fields, arrays, strict=False))
-    cells = LAYOUT.laid(
-        {
-            "bodies": len(named["mass"]),
-            "movable": movable,
-            "vertices": len(named["corners"]),
-            **{name: len(named[name]) for name in ("links", "pairs", "pushes", "supports", "courses")},
-            "code": len(named["ops"]),
-            "programs": len(named["spans"]),
-            "depth": len(named["stack"]),
-        },
-        named,
+    plan = LAYOUT.plan(
+        len(named["mass"]),
+        movable,
+        len(named["corners"]),
+        len(named["links"]),
+        len(named["pairs"]),
+        len(named["pushes"]),
+        len(named["supports"]),
+        len(named["courses"]),
+        len(named["ops"]),
+        len(named["spans"]),
+        len(named["stack"]),
     )
-    return World._make((*(LAYOUT.view(cells, name, array) for name, array in named.items()), cells))
+    return World._make(plan.filled(arrays))
 
 
-def copied(world: World, movable: int) -> World:
+def viewed(cells: FloatArray) -> World:
+    """The world that such cells hold."""
+    return World._make((*LAYOUT.plan_of(cells).views(cells), cells))
+
+
+def copied(world: World) -> World:
     """The same in memory of its own."""
-    return gathered(world[:-1], movable)
+    return viewed(world.cells.copy())
 
 
 def start_of(scene: Scene, names: Names) -> tuple[FloatArray, FloatArray]:
     """Poses and velocities at the start, (bodies + 1, 3): the page comes last."""
-    pos, vel = np.zeros((len(names.bodies) + 1, 3)), np.zeros((len(names.bodies) + 1, 3))
     known = {body.label: body for body in scene.bodies}
-    for k, label in enumerate(names.bodies):
-        body = known[label]
-        pos[k] = (*body.position, body.angle)
-        vel[k] = body.velocity
-    return pos, vel
+    everyone = [known[label] for label in names.bodies]
+    still = (0.0, 0.0, 0.0)
+    return (
+        np.array([*((*body.position, body.angle) for body in everyone), still], float),
+        np.array([*(body.velocity for body in everyone), still], float),
+    )
 
 
 def meeting(first: Material, second: Material) -> tuple[float, float]:
@@ -253,87 +274,90 @@ class _Programs:
         return pack(self.bound)
 
 
+def _course(course: Course, at: int, programs: _Programs) -> tuple[int, ...]:
+    position = -1 if course.position is None else programs.add(course.position, at)
+    velocity, acceleration = programs.add(course.velocity, at), programs.add(course.acceleration, at)
+    return at, 0 if course.axis == "x" else 1, position, velocity, acceleration, 1
+
+
 def _masses(everyone: list[Body], movable: int) -> tuple[FloatArray, FloatArray]:
-    mass = np.ones((len(everyone) + 1, 3))
+    page = (1.0, 1.0, 1.0)
+    mass = np.array([*((body.mass, body.mass, body.inertia) for body in everyone), page], float)
     inverse = np.zeros_like(mass)
-    for k, body in enumerate(everyone):
-        mass[k] = (body.mass, body.mass, body.inertia)
     inverse[:movable] = 1.0 / mass[:movable]
     return mass, inverse
 
 
-def _shapes(
-    everyone: list[Body],
-) -> tuple[FloatArray, IntArray, IntArray, FloatArray, FloatArray, FloatArray, FloatArray]:
-    radius, reach = np.zeros(len(everyone) + 1), np.zeros(len(everyone) + 1)
-    first, count = np.zeros(len(everyone) + 1, np.int64), np.zeros(len(everyone) + 1, np.int64)
-    corners: list[tuple[float, float]] = []
-    normals: list[tuple[float, float]] = []
+@dataclass(frozen=True, slots=True)
+class _Outline:
+    """Of a shape: see `World`; size: its least width, m, what another could miss if it moved that far unseen."""
+
+    radius: float
+    reach: float
+    size: float
+    corners: tuple[Vector, ...] = ()
+    normals: tuple[Vector, ...] = ()
+    edges: tuple[float, ...] = ()
+
+
+@lru_cache(4096)
+def _outline(shape: Disc | Block) -> _Outline:
+    if isinstance(shape, Disc):
+        return _Outline(shape.radius, shape.radius, 2 * shape.radius)
+    vertices = shape.vertices
+    normals: list[Vector] = []
     edges: list[float] = []
-    for k, body in enumerate(everyone):
-        if isinstance(body.shape, Disc):
-            radius[k] = reach[k] = body.shape.radius
-            continue
-        vertices = body.shape.vertices
-        first[k], count[k] = len(corners), len(vertices)
-        reach[k] = max(hypot(x, y) for x, y in vertices)
-        for (x1, y1), (x2, y2) in zip(vertices, (*vertices[1:], vertices[0]), strict=True):
-            length = hypot(x2 - x1, y2 - y1)
-            corners.append((x1, y1))
-            normals.append(((y2 - y1) / length, (x1 - x2) / length) if length > 0 else (0.0, 0.0))
-            edges.append(length)
-    return (
-        radius,
-        first,
-        count,
-        reach,
-        np.asarray(corners, float).reshape(-1, 2),
-        np.asarray(normals, float).reshape(-1, 2),
-        np.asarray(edges, float),
-    )
-
-
-def _pairs(everyone: list[Body], movable: int, links: Table, supports: Table) -> Table:
-    """Pairs with one that moves, but those that a pin joins.
-
-    A load may well hit the wheel that its own wire runs over."""
-    apart = {frozenset((int(link["i"]), int(link["j"]))) for link in links if link["kind"] == PIN}
-    given = {frozenset((int(s["i"]), int(s["j"]))): k for k, s in enumerate(supports)}
-    rows: list[tuple[int, int, int, float, float, float, float]] = []
-    sizes = [_size(body) for body in everyone]
-    reaches = [_reach(body) for body in everyone]
-    for i in range(movable):
-        for j in range(i + 1, len(everyone)):
-            key = frozenset((i, j))
-            if key in apart:
-                continue
-            if key in given:
-                supports[given[key]]["pair"] = len(rows)
-            e, mu = meeting(everyone[i].material, everyone[j].material)
-            rows.append((i, j, given.get(key, -1), e, mu, reaches[i] + reaches[j], min(sizes[i], sizes[j])))
-    return np.array(rows, PAIR) if rows else np.zeros(0, PAIR)
-
-
-def _reach(body: Body) -> float:
-    return (
-        body.shape.radius
-        if isinstance(body.shape, Disc)
-        else max(hypot(x, y) for x, y in body.shape.vertices)
-    )
-
-
-def _size(body: Body) -> float:
-    """The least width of a body, m: what another could miss if it moved that far unseen."""
-    if isinstance(body.shape, Disc):
-        return 2 * body.shape.radius
-    vertices = body.shape.vertices
     widths: list[float] = []
     for (x1, y1), (x2, y2) in zip(vertices, (*vertices[1:], vertices[0]), strict=True):
         length = hypot(x2 - x1, y2 - y1)
+        nx, ny = ((y2 - y1) / length, (x1 - x2) / length) if length > 0 else (0.0, 0.0)
+        normals.append((nx, ny))
+        edges.append(length)
         if length > 0:
-            nx, ny = (y2 - y1) / length, (x1 - x2) / length
             widths.append(max((x1 - x) * nx + (y1 - y) * ny for x, y in vertices))
-    return min(widths)
+    reach = max(hypot(x, y) for x, y in vertices)
+    return _Outline(0.0, reach, min(widths), vertices, tuple(normals), tuple(edges))
+
+
+def _shapes(outlines: list[_Outline]) -> tuple[NDArray[Any], ...]:
+    """radius, first, sides, reach, corners, normals, edges: see `World`."""
+    sides = [len(one.corners) for one in outlines]
+    return (
+        np.array([*(one.radius for one in outlines), 0.0]),
+        np.array([*(0 if n == 0 else end - n for n, end in zip(sides, accumulate(sides), strict=True)), 0]),
+        np.array([*sides, 0]),
+        np.array([*(one.reach for one in outlines), 0.0]),
+        np.array([corner for one in outlines for corner in one.corners], float),
+        np.array([normal for one in outlines for normal in one.normals], float),
+        np.array([edge for one in outlines for edge in one.edges], float),
+    )
+
+
+def _pairs(
+    everyone: list[Body],
+    movable: int,
+    outlines: list[_Outline],
+    pinned: set[tuple[int, int]],
+    given: dict[tuple[int, int], int],
+) -> list[tuple[int, int, int, float, float, float, float]]:
+    """Rows of `PAIR`: pairs with one that moves, but those that a pin joins. given: the support of a pair.
+
+    A load may well hit the wheel that its own wire runs over."""
+    rows: list[tuple[int, int, int, float, float, float, float]] = []
+    met: dict[tuple[int, int], tuple[float, float]] = {}
+    kinds: dict[Material, int] = {}
+    material = [kinds.setdefault(body.material, k) for k, body in enumerate(everyone)]
+    for i in range(movable):
+        one = outlines[i]
+        for j in range(i + 1, len(everyone)):
+            if (i, j) in pinned:
+                continue
+            both, other = (material[i], material[j]), outlines[j]
+            if both not in met:
+                met[both] = meeting(everyone[i].material, everyone[j].material)
+            sizes = (one.reach + other.reach, min(one.size, other.size))
+            rows.append((i, j, given.get((i, j), -1), *met[both], *sizes))
+    return rows
 
 
 def placed(point: tuple[float, float], pose: FloatArray) -> tuple[float, float]:

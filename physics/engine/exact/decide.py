@@ -23,7 +23,7 @@ from physics.engine.world import IntArray, Table, World
 from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
-SLOW = 1e-9
+SLOW = 1e-8
 """m/s: a slower rate or slip is none."""
 FORCE = 1e-10
 """Share of the greatest force by which a force may be wrong."""
@@ -36,7 +36,15 @@ CLOSE, OPEN, SLIP, HOLD = 1, 2, 3, 4
 
 
 class Undecided(ArithmeticError):
-    """No set of rows was found that fits: more contacts, or tighter jams, than this method is made for."""
+    """No set of rows was found that fits: more contacts, or tighter jams, than this method is made for.
+
+    jam: the row (a number) that slips and can neither hold nor leave, as in Painlevé's paradox: its friction
+    would press it the harder the more it is pressed; −1 where it is none.
+    """
+
+    def __init__(self, jam: int = -1) -> None:
+        super().__init__()
+        self.jam = jam
 
 
 def decide(world: World, rows: Table, make: Callable[[Table], Machine], time: float) -> Machine:
@@ -58,7 +66,7 @@ def decide(world: World, rows: Table, make: Callable[[Table], Machine], time: fl
         row, found = rows[k], machine.rows[k]
         if what == CLOSE:
             row["status"] = ON
-            take_grip(found)
+            take_grip(machine.rows, k)
             row["grip"], row["sigma"] = found["grip"], found["sigma"]
             _join_partner(rows, row)
         elif what == OPEN:
@@ -70,7 +78,7 @@ def decide(world: World, rows: Table, make: Callable[[Table], Machine], time: fl
         state = rows["status"].tobytes() + rows["grip"].tobytes() + np.sign(rows["sigma"]).tobytes()
         if state in seen:
             if orderly:
-                raise Undecided
+                raise Undecided(k if what in (CLOSE, OPEN) and row["grip"] == SLIDE else -1)
             orderly = True
             seen.clear()
         seen.add(state)
@@ -86,14 +94,21 @@ def _join_partner(rows: Table, row: Any) -> None:
             row["grip"], row["sigma"] = SLIDE, other["sigma"]
 
 
-def take_grip(row: np.void) -> None:
+@part
+def grip_of(row: Any) -> None:
     """The grip that a contact's slip says it has: it slips, or is held until friction turns out too weak."""
-    if row["mu"] <= 0.0 or row["kind"] == CORD:
-        row["grip"] = FREE
-    elif abs(row["slip"]) > SLOW:
-        row["grip"], row["sigma"] = SLIDE, np.sign(row["slip"])
+    if row.mu <= 0.0 or row.kind == CORD:
+        row.grip = FREE
+    elif abs(row.slip) > SLOW:
+        row.grip, row.sigma = SLIDE, np.sign(row.slip)
     else:
-        row["grip"] = STICK
+        row.grip = STICK
+
+
+@kernel
+def take_grip(rows: Table, k: int) -> None:
+    """`grip_of` for row k of a table of its own."""
+    grip_of(rows[k])
 
 
 @kernel

@@ -9,49 +9,18 @@ import numpy as np
 
 from physics.engine.acts import Act, applied
 from physics.engine.cells import head
-from physics.engine.exact.integrate import between, unpack
+from physics.engine.exact.integrate import unpack
 from physics.engine.exact.machine import MACHINE, accelerations, forces_of, poses, row_of, velocities
 from physics.engine.exact.solve import accelerate
 from physics.engine.forces import follow
 from physics.engine.rows import CORD, FREE, GIVEN, ON, turned
 from physics.engine.tables import WORLD
-from physics.engine.world import IntArray, Names, Table, World
+from physics.engine.world import Names, Table, World
 from physics.jit import kernel
 from sketch.ink import FloatArray
 
 if TYPE_CHECKING:
     from physics.engine.exact.run import Mode
-
-
-def sample(modes: Sequence[Mode], times: FloatArray) -> FloatArray:
-    """States (T, size) at ascending times; before the first step and after the last, those there."""
-    spans = [span for mode in modes for span in mode.spans]
-    dense = [block for mode in modes for block in mode.dense]
-    states = np.zeros((len(times), dense[0].shape[2]))
-    starts = np.concatenate([span[:, 0] for span in spans])
-    steps = np.searchsorted(starts, times, side="right") - 1
-    block_of = np.repeat(np.arange(len(spans)), [len(span) for span in spans])
-    first = np.cumsum([0, *(len(span) for span in spans)])
-    steps = np.clip(steps, 0, len(starts) - 1)
-    owners = block_of[steps]
-    low = 0
-    while low < len(times):
-        block = int(owners[low])
-        high = int(np.searchsorted(owners, block, side="right"))
-        _sample(spans[block], dense[block], times[low:high], steps[low:high] - first[block], states[low:high])
-        low = high
-    return states
-
-
-@kernel
-def _sample(
-    spans: FloatArray, dense: FloatArray, times: FloatArray, steps: IntArray, states: FloatArray
-) -> None:
-    for k in range(len(times)):
-        s = steps[k]
-        length = spans[s, 1] - spans[s, 0]
-        x = (times[k] - spans[s, 0]) / length if length > 0.0 else 1.0
-        between(dense[s], min(max(x, 0.0), 1.0), states[k])
 
 
 def follow_frames(modes: Sequence[Mode], times: FloatArray, pos: FloatArray, vel: FloatArray) -> None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import ceil
 from typing import Any
 
-from physics.engine.cells import head, line
+from physics.engine.cells import head
 from physics.engine.exact.integrate import between, densify, derive, step, unpack
 from physics.engine.exact.machine import (
     AT,
@@ -32,10 +32,8 @@ from physics.engine.exact.machine import (
     olds,
     poses,
     recorded,
-    recording,
     row_of,
     slope,
-    spans,
     state,
     takes,
     took,
@@ -65,6 +63,9 @@ SHORTEST = 1e-13
 """s (a share of the time above 1 s): a step that is no step."""
 SAMPLES = 256
 """Places within a step at which gaps are looked at, at most."""
+VERGE = 1e-3
+"""Share of the way between two such places: so near the step's ends it is looked as well, since there the
+slope tells whether a gap falls at first, or rises at last, and so may close and open unseen."""
 
 
 @kernel
@@ -87,19 +88,27 @@ def begin(cells: FloatArray, memory: FloatArray) -> bool:
 
 
 @kernel
-def flow(cells: FloatArray, memory: FloatArray, until: float, accuracy: float) -> int:
+def flow(
+    cells: FloatArray,
+    memory: FloatArray,
+    record: FloatArray,
+    dense: FloatArray,
+    most: int,
+    until: float,
+    accuracy: float,
+) -> int:
     """Steps on until a step ends at `until` or later, or something happens: see the codes above.
 
-    `begin` must have been called for these rows. Steps do not depend on `until`.
+    `begin` must have been called for these rows. Steps do not depend on `until`. They are written behind the
+    first recorded(m)[0] of record (room, 2) and dense (room, 8, size), up to `most` in all.
     """
     w, m = head(cells, WORLD), head(memory, MACHINE)
     now, done = clock(m), recorded(m)
-    done[0] = 0
     while True:
         t = now[T]
         if t >= until:
             return REACHED
-        if done[0] == m.capacity:
+        if done[0] >= most:
             return FULL
         h = now[H]
         error = step(w, m, t, h, accuracy)
@@ -116,23 +125,24 @@ def flow(cells: FloatArray, memory: FloatArray, until: float, accuracy: float) -
         code, share = _first(w, m, t, h)
         if code == REACHED:
             now[H] = min(LONGEST, h * (min(5.0, 0.9 * error**-0.125) if error > 1e-8 else 5.0))
-            _accept(m, t, h)
+            _accept(m, t, h, record, dense)
             for k in range(m.watched):
                 before(m)[k] = after(m)[k]
             continue
         share = _sharpen(w, m, code, t, h, share, accuracy)
-        _accept(m, t, share * h)
+        _accept(m, t, share * h, record, dense)
         return code
 
 
 @part
-def _accept(m: Any, t: float, h: float) -> None:
+def _accept(m: Any, t: float, h: float, record: FloatArray, dense: FloatArray) -> None:
     """Records the step just made dense, and makes its end the state."""
     n = recorded(m)[0]
-    spans(m)[n, 0], spans(m)[n, 1] = t, t + h
-    kept_step, dense = recording(m, n), line(m, m.dense_at, POWERS * m.size)
-    for k in range(POWERS * m.size):
-        kept_step[k] = dense[k]
+    record[n, 0], record[n, 1] = t, t + h
+    latest = dense_of(m)
+    for q in range(POWERS):
+        for k in range(m.size):
+            dense[n, q, k] = latest[q, k]
     recorded(m)[0] = n + 1
     clock(m)[T] = t + h
     y, new, rate, last = state(m), newest(m), slope(m, 0), slope(m, 12)
@@ -150,7 +160,7 @@ def _first(w: Any, m: Any, t: float, h: float) -> tuple[int, float]:
         hits(m)[k] = 0
     for k in range(m.watched):
         if after(m)[k] < -1.0:
-            when = _crossing(w, m, k, t, h)
+            when = _falls(w, m, k, t, h, _aim(m, k), 0.0, 1.0)
             if when < share - 1e-12:
                 for q in range(k):
                     hits(m)[q] = 0
@@ -163,7 +173,7 @@ def _first(w: Any, m: Any, t: float, h: float) -> tuple[int, float]:
             if when < share - 1e-12:
                 code, share = SWITCHED, when
             break
-    met, pair = _meeting(w, m, h, share)
+    met, pair = _meeting(w, m, t, h, share)
     if met < share - 1e-12:
         now[AT] = pair
         code, share = MET, met
@@ -174,34 +184,50 @@ def _first(w: Any, m: Any, t: float, h: float) -> tuple[int, float]:
 
 
 @part
-def _look(w: Any, m: Any, k: int, t: float, h: float, x: float) -> float:
-    """Watched function k at share x of the step, by the dense output. Uses `newest(m)`'s scratch twin."""
-    scratch = slope(m, 1)
-    now = clock(m)
-    between(dense_of(m), x, scratch)
-    derive(w, m, t + x * h, scratch, slope(m, 2))
-    watch(w, m, now[GREATEST], after(m))
-    return after(m)[k]
+def _aim(m: Any, k: int) -> float:
+    """What watched function k must fall below for something to have happened: zero, or its tolerance where it
+    begins at zero."""
+    return 0.0 if before(m)[k] > 1.0 else -1.0
 
 
 @part
-def _crossing(w: Any, m: Any, k: int, t: float, h: float) -> float:
-    """The share of the step at which watched function k crosses zero (or its tolerance, where it begins
-    at zero): the Illinois method. Leaves after(m) as it was."""
-    aim = 0.0 if before(m)[k] > 1.0 else -1.0
-    low, high = 0.0, 1.0
-    above, below = min(before(m)[k], 1e15) - aim, after(m)[k] - aim
-    if above <= 0.0:
-        return 0.0
-    end = kept(m)
-    for q in range(m.watched):
-        end[q] = after(m)[q]
+def _look(w: Any, m: Any, what: int, t: float, h: float, x: float) -> float:
+    """A function of the motion at share x of the step, by the dense output: the watched function `what`, or, from
+    m.watched on, the gap of a pair in units of `LENGTH`."""
+    scratch = slope(m, 1)
+    between(dense_of(m), x, scratch)
+    if what >= m.watched:
+        p = what - m.watched
+        unpack(scratch, m.movable, poses(m), velocities(m))
+        return pair_gap(w, m, p, touched(m, p)) / LENGTH
+    derive(w, m, t + x * h, scratch, slope(m, 2))
+    watch(w, m, clock(m)[GREATEST], kept(m))
+    return kept(m)[what]
+
+
+@part
+def _falls(w: Any, m: Any, what: int, t: float, h: float, aim: float, low: float, high: float) -> float:
+    """The share between low and high at which a function falls below `aim`, where it is at high: the Illinois
+    method. Where it begins below and rises first (a bounce), the beginning is passed by halving towards it."""
+    above, below = _look(w, m, what, t, h, low) - aim, _look(w, m, what, t, h, high) - aim
+    if above <= 1.0:
+        start = low
+        x = high
+        for _ in range(60):
+            x = start + 0.5 * (x - start)
+            above = _look(w, m, what, t, h, x) - aim
+            if above > 0.0:
+                break
+            high, below = x, above
+        if above <= 0.0:
+            return high
+        low = x
     side = 0
     for _ in range(80):
         x = (low * below - high * above) / (below - above)
         if not low < x < high or high - low < 1e-15:
             break
-        value = _look(w, m, k, t, h, x) - aim
+        value = _look(w, m, what, t, h, x) - aim
         if value > 0.0:
             low, above = x, value
             if side == 1:
@@ -214,8 +240,6 @@ def _crossing(w: Any, m: Any, k: int, t: float, h: float) -> float:
             side = -1
             if value == 0.0:
                 break
-    for q in range(m.watched):
-        after(m)[q] = end[q]
     return high
 
 
@@ -242,25 +266,16 @@ def _switching(w: Any, m: Any, t: float, h: float) -> float:
 
 
 @part
-def _gap(w: Any, m: Any, p: int, joined: bool, x: float) -> float:
-    """The gap of pair p at share x of the step, m."""
-    scratch = slope(m, 1)
-    between(dense_of(m), x, scratch)
-    unpack(scratch, m.movable, poses(m), velocities(m))
-    return pair_gap(w, m, p, joined)
-
-
-@part
-def _meeting(w: Any, m: Any, h: float, most: float) -> tuple[float, int]:
+def _meeting(w: Any, m: Any, t: float, h: float, most: float) -> tuple[float, int]:
     """(share of the step at which two bodies first meet, at most `most`; the pair); (2, −1) if none do."""
     n, samples = _candidates(w, m, h)
     if n == 0:
         return 2.0, -1
     scratch = slope(m, 1)
     first, pair = 2.0, -1
-    last = 0.0
-    for s in range(1, samples + 1):
-        x = s / samples * most
+    older, last = 0.0, 0.0
+    for s in range(samples + 2):
+        x = most * _place(s, samples)
         between(dense_of(m), x, scratch)
         unpack(scratch, m.movable, poses(m), velocities(m))
         for c in range(n):
@@ -268,11 +283,9 @@ def _meeting(w: Any, m: Any, h: float, most: float) -> tuple[float, int]:
             gap = pair_gap(w, m, p, touched(m, p))
             at = 2.0
             if gap < -LENGTH:
-                at = _meets(w, m, p, last, x)
-            elif (
-                gaps(m)[c] < olds(m)[c] and gaps(m)[c] < gap and gaps(m)[c] < TOUCHING + abs(gap - olds(m)[c])
-            ):
-                at = _grazes(w, m, p, max(last - most / samples, 0.0), x)
+                at = _falls(w, m, m.watched + p, t, h, 0.0, last, x)
+            elif s > 0 and _may_dip(olds(m)[c], gaps(m)[c], gap, last - older, x - last):
+                at = _grazes(w, m, p, t, h, older, x)
             if at < first:
                 first, pair = at, p
             olds(m)[c] = gaps(m)[c]
@@ -280,9 +293,44 @@ def _meeting(w: Any, m: Any, h: float, most: float) -> tuple[float, int]:
             between(dense_of(m), x, scratch)
             unpack(scratch, m.movable, poses(m), velocities(m))
         if pair >= 0:
-            return first, pair
-        last = x
+            return _earliest(w, m, n, t, h, last if first > last else older, first, pair)
+        older, last = last, x
     return 2.0, -1
+
+
+@part
+def _earliest(
+    w: Any, m: Any, n: int, t: float, h: float, low: float, first: float, pair: int
+) -> tuple[float, int]:
+    """The first of all candidates to meet, given that one does at share `first` and that none has at `low`: another
+    may be in the midst of a dip by then."""
+    looking = True
+    while looking:
+        looking = False
+        for c in range(n):
+            p = candidates(m)[c]
+            if p != pair and _look(w, m, m.watched + p, t, h, first) < -1.0:
+                first, pair, looking = _falls(w, m, m.watched + p, t, h, 0.0, low, first), p, True
+    return first, pair
+
+
+@part
+def _place(s: int, samples: int) -> float:
+    """Where to look the s-th time, of samples + 2 times, as a share of the step."""
+    if s == 0:
+        return VERGE / samples
+    if s < samples:
+        return s / samples
+    return 1.0 - VERGE / samples if s == samples else 1.0
+
+
+@part
+def _may_dip(before: float, here: float, after: float, back: float, on: float) -> bool:
+    """Whether a gap that is least of three at the middle one may close about it: were it convex, it would stay
+    above the two lines through neighbours. back, on: how far it is to either."""
+    if here >= before or here >= after:
+        return False
+    return here - max((before - here) / back * on, (after - here) / on * back) < TOUCHING
 
 
 @part
@@ -318,59 +366,18 @@ def _candidates(w: Any, m: Any, h: float) -> tuple[int, int]:
 
 
 @part
-def _meets(w: Any, m: Any, p: int, low: float, high: float) -> float:
-    """The share between low and high at which the gap of pair p closes; it is closed at high.
-
-    Where it begins closed and opens (a bounce), the beginning is passed by halving towards it.
-    """
-    joined = touched(m, p)
-    below = _gap(w, m, p, joined, high)
-    above = _gap(w, m, p, joined, low)
-    if above <= LENGTH:
-        x = high
-        for _ in range(60):
-            x = low + 0.5 * (x - low)
-            above = _gap(w, m, p, joined, x)
-            if above > 0.0:
-                break
-            high, below = x, above
-        if above <= 0.0:
-            return high
-        low = x
-    side = 0
-    for _ in range(80):
-        x = (low * below - high * above) / (below - above)
-        if not low < x < high or high - low < 1e-15:
-            break
-        value = _gap(w, m, p, joined, x)
-        if value > 0.0:
-            low, above = x, value
-            if side == 1:
-                below *= 0.5
-            side = 1
-        else:
-            high, below = x, value
-            if side == -1:
-                above *= 0.5
-            side = -1
-            if value == 0.0:
-                break
-    return high
-
-
-@part
-def _grazes(w: Any, m: Any, p: int, low: float, high: float) -> float:
-    """The same where the gap is open at low and at high and least in between; 2 if it stays open."""
-    joined = touched(m, p)
-    start = low
+def _grazes(w: Any, m: Any, p: int, t: float, h: float, low: float, high: float) -> float:
+    """The share at which pair p meets where its gap is open at low and at high and least in between (golden
+    section); 2 if it stays open."""
+    start, what = low, m.watched + p
     golden = 0.6180339887498949
     for _ in range(60):
         one, two = high - golden * (high - low), low + golden * (high - low)
-        first, second = _gap(w, m, p, joined, one), _gap(w, m, p, joined, two)
-        if first < -LENGTH:
-            return _meets(w, m, p, start, one)
-        if second < -LENGTH:
-            return _meets(w, m, p, start, two)
+        first, second = _look(w, m, what, t, h, one), _look(w, m, what, t, h, two)
+        if first < -1.0:
+            return _falls(w, m, what, t, h, 0.0, start, one)
+        if second < -1.0:
+            return _falls(w, m, what, t, h, 0.0, start, two)
         if high - low < 1e-9:
             break
         if first < second:
@@ -378,6 +385,15 @@ def _grazes(w: Any, m: Any, p: int, low: float, high: float) -> float:
         else:
             low = one
     return 2.0
+
+
+@part
+def _left(w: Any, m: Any, watched: int, pair: int, aim: float) -> float:
+    """How far above its aim the state just reached has a watched function, or a pair's gap (pair >= 0)."""
+    if pair >= 0:
+        return pair_gap(w, m, pair, touched(m, pair)) / LENGTH
+    watch(w, m, clock(m)[GREATEST], after(m))
+    return after(m)[watched] - aim
 
 
 @part
@@ -393,15 +409,11 @@ def _sharpen(
     """Repeats the step with the length at which it happens, until what crosses zero is zero there by the
     step itself. Leaves newest(m) and dense_of(m) for that step; returns its share."""
     watched = -1
-    now = clock(m)
     for k in range(m.watched):
         if hits(m)[k] and (watched < 0 or before(m)[k] > before(m)[watched]):
             watched = k
-    aim = 0.0
-    if watched >= 0 and before(m)[watched] <= 1.0:
-        aim = -1.0
-    pair = int(now[AT])
-    joined = code == MET and touched(m, pair)
+    aim = _aim(m, watched) if watched >= 0 else 0.0
+    pair = int(clock(m)[AT]) if code == MET else -1
     hold = max(share, 1e-15)
     other, value_other = -1.0, 0.0
     x = hold
@@ -409,22 +421,14 @@ def _sharpen(
         step(w, m, t, x * h, accuracy)
         if code == SWITCHED or hold <= 1e-15:
             break
-        if code == MET:
-            value = pair_gap(w, m, pair, joined) / LENGTH
-        else:
-            watch(w, m, now[GREATEST], after(m))
-            value = after(m)[watched] - aim
+        value = _left(w, m, watched, pair, aim)
         if abs(value) < 1e-7:
             break
         if other < 0.0:
             # The first slope from a neighbour a thousandth of the step away, by a true step too.
             other = x * (1.0 - 1e-3)
             step(w, m, t, other * h, accuracy)
-            if code == MET:
-                value_other = pair_gap(w, m, pair, joined) / LENGTH
-            else:
-                watch(w, m, now[GREATEST], after(m))
-                value_other = after(m)[watched] - aim
+            value_other = _left(w, m, watched, pair, aim)
         if value == value_other:
             break
         better = x - value * (x - other) / (value - value_other)

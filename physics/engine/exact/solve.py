@@ -12,6 +12,7 @@ Sources: Featherstone (2008), ch. 3; Rockafellar (1976) for the proximal point i
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -52,35 +53,53 @@ SETTLED = 1e-15
 NORMAL: Any = np.int64(0)
 TANGENT: Any = np.int64(1)
 """Which force of a row is meant. Not plain integers, of which numba would compile a version each."""
+SYSTEMS = 256
+"""Systems that are remembered: scenes of one kind have the same few again and again."""
 LARGEST = 1500
 """Unknowns: more would need hours and gigabytes; robust mode takes over long before."""
 
 
 def system_of(rows: Table, inverse: FloatArray) -> System:
     """The unknowns of the rows that hold, ordered so that those that share bodies are near each other."""
-    labels = [
-        (k, tangent)
-        for k, row in enumerate(rows)
-        if row["status"] == ON
-        for tangent in (0, 1)
-        if (row["kind"] != GIVEN if tangent == 0 else row["grip"] == STICK)
-    ]
-    moves = np.any(inverse > 0, axis=1)
+    if not len(rows):
+        return _system((), ())
+    moves: list[bool] = np.any(inverse > 0, axis=1).tolist()
+    columns = (rows[name].tolist() for name in ("kind", "status", "grip", "i", "j"))
+    labels: list[tuple[int, int]] = []
+    bodies: list[tuple[int, int]] = []
+    for k, (kind, on, grip, i, j) in enumerate(zip(*columns, strict=True)):
+        if on != ON:
+            continue
+        ends = (i if moves[i] else -1, j if moves[j] else -1)
+        if kind != GIVEN:
+            labels.append((k, 0))
+            bodies.append(ends)
+        if grip == STICK:
+            labels.append((k, 1))
+            bodies.append(ends)
+    return _system(tuple(labels), tuple(bodies))
+
+
+@lru_cache(SYSTEMS)
+def _system(labels: tuple[tuple[int, int], ...], bodies: tuple[tuple[int, int], ...]) -> System:
+    """labels: the row of each unknown, and 1 for the force along its tangent; bodies: the two that it acts on,
+    −1 where one cannot move."""
     touching: dict[int, list[int]] = {}
-    for a, (k, _) in enumerate(labels):
-        for body in (int(rows[k]["i"]), int(rows[k]["j"])):
-            if moves[body]:
+    for a, ends in enumerate(bodies):
+        for body in ends:
+            if body >= 0:
                 touching.setdefault(body, []).append(a)
     pairs = {(max(a, b), min(a, b)) for group in touching.values() for a in group for b in group}
     pairs |= {(a, a) for a in range(len(labels))}
-    if len(labels) > 8:
-        labels, pairs = _banded(labels, pairs)
-    start = np.arange(len(labels))
+    order = list(labels)
+    if len(order) > 8:
+        order, pairs = _banded(order, pairs)
+    start = np.arange(len(order))
     for a, b in pairs:
         start[a] = min(start[a], b)
     return System(
-        np.array([k for k, _ in labels], np.int64),
-        np.array([tangent for _, tangent in labels], np.int64),
+        np.array([k for k, _ in order], np.int64),
+        np.array([tangent for _, tangent in order], np.int64),
         start,
         np.array(sorted(pairs), np.int64).reshape(-1, 2),
     )

@@ -14,6 +14,8 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
+import numpy as np
+
 from physics.engine.cells import head
 from physics.engine.exact.touch import TOUCHING
 from physics.engine.rows import CORD, GIVEN, PIN_X, POINT, refresh, refresh_table
@@ -29,6 +31,10 @@ RISE = 1e-9
 infinitely many."""
 ROUNDS = 60
 """Blows in consequence of one another, until they rebound no more."""
+HELD = 2.0
+"""Mark of a row that may pull as well as push, to stay shut."""
+JAMMED = 3.0
+"""Mark of a row that may pull and push, and rub as hard as it takes."""
 SWEEPS = 20_000
 SETTLED = 2e-16
 """Share of the greatest speed by which the last sweep may still change one."""
@@ -88,35 +94,42 @@ def strike(
         _sweep(w, rows, vel)
         if kinetic(w, vel) > start * (1.0 + 1e-12):
             _calm(w, rows, vel, before, start)
-    _hold(w, rows, pos, vel, rise)
     refresh_table(rows, pos, vel)
     return energy - kinetic(w, vel)
 
 
-@part
-def _hold(w: Any, rows: Table, pos: FloatArray, vel: FloatArray, rise: float) -> None:
-    """Keeps shut, or taut, what would open by less than `rise` before it is pressed shut again: two corners that
-    lift each other, or two wires that slacken each other, would go on without end."""
-    refresh_table(rows, pos, vel)
+@kernel
+def hold(cells: FloatArray, rows: Table, pos: FloatArray, vel: FloatArray, rise: float) -> float:
+    """Keeps shut, or taut, what would open by less than `rise` (m) before it is pressed shut again: two corners
+    that lift each other, or two wires that slacken each other, would go on without end. Changes `vel`; returns the
+    heat, J. rows[k].press must be known for those that open slowly; marks those that it holds `HELD`, and holds what
+    is marked so already."""
+    w = head(cells, WORLD)
+    energy = kinetic(w, vel)
     needed = False
     for k in range(len(rows)):
         row = rows[k]
-        row.bound = 0.0
+        if row.bound != HELD:
+            row.bound = 0.0
         if row.kind == GIVEN or row.gap > TOUCHING:
             continue
-        if row.kind >= PIN_X or row.rate <= APPROACH:
+        row.along = 0.0
+        if row.bound == 0.0 and (row.kind >= PIN_X or row.rate <= APPROACH):
             # What is shut stays so: holding one contact must not push another in.
-            row.bound, row.along = 1.0, 0.0
+            row.bound = 1.0
         elif row.rate > APPROACH and row.rate**2 < -2.0 * row.press * rise and row.e < 1.0:
-            row.bound, row.along = 2.0, 0.0
+            row.bound = HELD
             needed = True
     if needed:
         _sweep(w, rows, vel)
+        refresh_table(rows, pos, vel)
+    return energy - kinetic(w, vel)
 
 
 @part
 def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
-    """Impulses of the rows that take part, one after another, until none changes any more."""
+    """Impulses of the rows that take part (`bound` is 1, `HELD` or `JAMMED`), one after another, until none changes
+    any more."""
     inverse = inverses(w)
     for k in range(len(rows)):
         rows[k].force = rows[k].rub = 0.0
@@ -133,7 +146,7 @@ def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
                 rate += row.J[a] * vel[i, a] + row.J[3 + a] * vel[j, a]
             if give > 0.0:
                 total = row.force + (row.along - rate) / give
-                if row.kind <= CORD and row.bound < 2.0:
+                if row.kind <= CORD and row.bound < HELD:
                     total = max(total, 0.0)
                 change = total - row.force
                 row.force = total
@@ -148,7 +161,7 @@ def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
                     give += row.T[a] ** 2 * inverse[i, a] + row.T[3 + a] ** 2 * inverse[j, a]
                     rate += row.T[a] * vel[i, a] + row.T[3 + a] * vel[j, a]
                 if give > 0.0:
-                    bound = row.mu * row.force
+                    bound = row.mu * row.force if row.bound < JAMMED else 1e300
                     total = min(max(row.rub - rate / give, -bound), bound)
                     change = total - row.rub
                     row.rub = total
@@ -158,6 +171,26 @@ def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
                     moved = max(moved, abs(change) * give)
         if moved <= SETTLED * speed:
             return
+
+
+@kernel
+def unjam(cells: FloatArray, rows: Table, pos: FloatArray, vel: FloatArray, jam: int) -> float:
+    """Stops the slip of a row that can neither hold nor leave, by an impulse without an impact (Painlevé 1895; Génot
+    and Brogliato 1999). Changes `vel`; returns the heat, J: NaN where only a pull would do it.
+
+    The rubbing may leave friction's cone a little where the blow sets another contact slipping: rigid bodies have no
+    better answer there."""
+    w = head(cells, WORLD)
+    energy = kinetic(w, vel)
+    refresh_table(rows, pos, vel)
+    for k in range(len(rows)):
+        row = rows[k]
+        shut = row.gap <= TOUCHING and row.kind != GIVEN and (row.kind >= PIN_X or row.rate <= APPROACH)
+        row.bound, row.along = (1.0 if shut else 0.0), 0.0
+    rows[jam].bound = JAMMED
+    _sweep(w, rows, vel)
+    refresh_table(rows, pos, vel)
+    return energy - kinetic(w, vel) if rows[jam].force > 0.0 else np.nan
 
 
 @part

@@ -118,10 +118,10 @@ def decisions(w: Any, m: Any, t: float, taken: IntArray) -> None:
 
 @part
 def touched(m: Any, p: int) -> bool:
-    """Whether a pair has rows of contact."""
+    """Whether a pair has rows of contact that hold: where none does, it may meet anywhere."""
     for k in range(m.rows):
         row = row_of(m, k)
-        if row.source == p and row.kind <= POINT:
+        if row.source == p and row.kind <= POINT and row.status == ON:
             return True
     return False
 

@@ -106,8 +106,8 @@ def crowd_of(world: World, names: Names, pos: FloatArray, vel: FloatArray, ledge
         pos,
         vel,
         flat(),
-        flat(),
         vel,
+        flat(),
         flat(),
         flat(),
         flat(),
@@ -141,16 +141,18 @@ def crowd_of(world: World, names: Names, pos: FloatArray, vel: FloatArray, ledge
 def gathered(arrays: Sequence[NDArray[Any]]) -> Crowd:
     """A crowd of copies of these arrays (the fields of `Crowd` but the last), in one piece of memory."""
     named: dict[str, NDArray[Any]] = dict(zip(BLOCKS, arrays, strict=True))
-    counts = {
-        "bodies": len(named["pos"]),
-        "solids": len(named["order"]),
-        "columns": named["real"].shape[1],
-        **{name: len(named[name]) for name in ("near", "rows", "asked", "events")},
-        "pairs": len(named["touching"]),
-        "entries": len(named["ledger"]),
-    }
-    cells = LAYOUT.laid(counts, named)
-    return Crowd._make((*(LAYOUT.view(cells, name, array) for name, array in named.items()), cells))
+    plan = LAYOUT.plan(
+        len(named["pos"]),
+        len(named["order"]),
+        named["real"].shape[1],
+        len(named["near"]),
+        len(named["touching"]),
+        len(named["rows"]),
+        len(named["asked"]),
+        len(named["ledger"]),
+        len(named["events"]),
+    )
+    return Crowd._make(plan.filled(arrays))
 
 
 def contact_room(pairs: int) -> tuple[FloatArray, IntArray, FloatArray, IntArray]:

@@ -21,7 +21,7 @@ from physics.engine.robust.memory import DONE, EVENTS, FORCE, NEEDS, PRESSED, RE
 from physics.engine.robust.pace import ASLEEP, run
 from physics.engine.robust.shown import contact_acts, joint_acts
 from physics.engine.robust.told import told, whose
-from physics.engine.world import SPRING, Names, World, copied
+from physics.engine.world import SPRING, IntArray, Names, World, copied
 from physics.trajectory import Event
 from sketch.ink import FloatArray
 
@@ -52,7 +52,7 @@ class RobustRun:
         ledger: FloatArray | None = None,
         sleep: bool = True,
     ) -> None:
-        self.world, self.given = copied(world, names.movable), copied(world, names.movable)
+        self.world, self.given = copied(world), copied(world)
         self.names, self.start = names, time
         entries = ledger_size(world)
         self.crowd = crowd_of(self.world, names, pos, vel, np.zeros(entries) if ledger is None else ledger)
@@ -147,6 +147,10 @@ class RobustRun:
         apart = x1 - x0 - h * (v0 + 0.5 * h * even) - (h - hit) * jump
         pos[frames] = x0 + s * (v0 + 0.5 * s * even + apart / h) + np.maximum(s - hit, 0.0) * jump
         vel[frames] = v0 + s * even + (s > hit) * jump
+
+    def place(self, time: float, at: IntArray, pos: FloatArray) -> None:
+        """Writes the poses at one time into the rows `at` of pos, (bodies, 3), one for each that can move."""
+        pos[at] = self.states(np.array([time]))[0][0, : self.names.movable]
 
     def ledger(self, times: FloatArray) -> FloatArray:
         """Heat and works, (T, entries) J: see `forces.ledger_size`. Heat holds what `corrected` tells, too."""
