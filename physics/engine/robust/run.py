@@ -11,7 +11,6 @@ from math import ceil, sqrt
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics.engine.acts import Act, applied, energies
 from physics.engine.forces import ledger_size
@@ -24,8 +23,6 @@ from physics.engine.robust.told import told, whose
 from physics.engine.world import SPRING, IntArray, Names, World, copied
 from physics.trajectory import Event
 from sketch.ink import FloatArray
-
-IntArray = NDArray[np.int64]
 
 STEP = 1 / 60
 """s: bodies are looked at for rest, and a run may end, on this grid."""
