@@ -67,8 +67,8 @@ class ForceSeries:
 @dataclass(frozen=True, slots=True, eq=False)
 class Energy:
     """The ledger, (T,) joules each: kinetic + potential + elastic + dissipated − worked is constant where
-    the engine is right. dissipated: heat of friction, damping and impacts; worked: by the student's
-    forces; works: the same for each of them, by (name, body)."""
+    the engine is right. dissipated: heat of friction, damping and impacts, in robust mode also what its
+    steps took or gave (`physics.engine.robust.run.RobustRun.corrected`); worked: by the student's forces; works: the same for each of them, by (name, body)."""
 
     kinetic: FloatArray
     potential: FloatArray

@@ -176,16 +176,7 @@ def test_a_disc_jammed_between_a_floor_and_a_ceiling_too_near_stays_finite_and_s
 # Mass ratios ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "mode",
-    [
-        "exact",
-        pytest.param(
-            "robust",
-            marks=pytest.mark.xfail(reason="robust mode throws a heavy box off a light one", strict=False),
-        ),
-    ],
-)
+@modes
 @pytest.mark.parametrize("masses", [(1e-3, 1e3), (1e3, 1e-3), (1.0, 1e6), (1e6, 1.0)])
 def test_a_stack_of_a_million_to_one_stays_and_carries_its_weight(
     masses: tuple[float, float], mode: Mode
@@ -284,7 +275,9 @@ def test_a_very_stiff_spring_and_a_very_soft_one_move_their_load_soundly() -> No
 
 
 @pytest.mark.xfail(
-    reason="exact mode hands over to robust mode, which lets the load into the wheel for a frame"
+    reason="exact mode hands over at 0.7252 s with the load 5.1 cm in its wheel; robust mode alone keeps it out, but a "
+    "wire wound round its wheel again and again loses count of its turns (UNWOUND in rows.py)",
+    strict=True,
 )
 def test_a_load_pulled_up_to_its_pulley_and_beyond_stays_on_its_wire() -> None:
     scene = atwood(0.1, 5.0)

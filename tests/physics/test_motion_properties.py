@@ -39,10 +39,7 @@ from physics.trajectory import Mode, Trajectory
 SCENES = settings(
     max_examples=15, deadline=None, derandomize=True, phases=(Phase.explicit, Phase.reuse, Phase.generate)
 )
-ROBUST = pytest.mark.xfail(
-    reason="robust mode: crowds with links and mass ratios above a hundred are not sound yet", strict=False
-)
-modes = pytest.mark.parametrize("mode", ["exact", pytest.param("robust", marks=ROBUST)])
+modes = pytest.mark.parametrize("mode", ["exact", "robust"])
 
 
 def settled(scene: Scene, seconds: float, mode: Mode) -> Trajectory:

@@ -157,8 +157,8 @@ def test_contacts_never_create_energy() -> None:
     moved = run(discs_in_bin(40), 3.0)
     energy = mechanical(moved, 3.0)
     assert np.diff(energy).max() < 2e-3 * (energy[0] - energy[-1])
-    ledger = moved.ledger(grid(3.0, 240.0))[:, 0]
-    assert np.abs(energy + ledger - energy[0]).max() < 1e-2 * (energy[0] - energy[-1])
+    # Blows, friction and damping account for what is lost, but for some hundredths in the heap's collapse.
+    assert np.abs(moved.corrected(grid(3.0))).max() < 3e-2 * (energy[0] - energy[-1])
 
 
 def test_a_collision_in_free_space_keeps_momentum_and_at_restitution_one_energy() -> None:
@@ -178,13 +178,20 @@ def test_a_collision_in_free_space_keeps_momentum_and_at_restitution_one_energy(
     assert np.abs(energy / energy[0] - 1.0).max() < 1e-9
 
 
-def test_a_mass_ratio_of_a_million_does_not_explode() -> None:
-    scene = Scene((floor(DEAD), box("light", 0, 0.25, 0.5, 0.5), box("heavy", 0, 0.75, 0.5, 0.5, mass=1e6)))
-    moved = run(scene, 2.0)
-    _, vel = moved.states(grid(2.0))
-    assert np.hypot(vel[..., 0], vel[..., 1]).max() < 2 * sqrt(G)  # no faster than a fall from two metres
-    energy = mechanical(moved, 2.0)
-    assert np.diff(energy).max() < 1e-5 * energy[0]
+@pytest.mark.parametrize("masses", [(1.0, 1e6), (1e6, 1.0), (1e-3, 1e3)])
+def test_a_stack_of_any_masses_stands_still(masses: tuple[float, float]) -> None:
+    low, high = masses
+    scene = Scene((floor(DEAD), box("low", 0, 0.25, 0.5, 0.5, low), box("high", 0.05, 0.75, 0.5, 0.5, high)))
+    pos, vel = run(scene, 2.0, sleep=False).states(grid(2.0))
+    assert np.abs(pos - pos[0]).max() < 1e-9
+    assert np.abs(vel).max() < 1e-9
+
+
+def test_a_smooth_pyramid_does_not_creep() -> None:
+    moved = run(pyramid(10, 0.0, Material()), 5.0, sleep=False)
+    pos, vel = moved.states(grid(5.0))
+    assert np.abs(pos - pos[0]).max() < 1e-9
+    assert np.abs(vel[60:]).max() < 1e-11
 
 
 def test_what_was_drawn_overlapping_is_let_out_gently() -> None:
@@ -193,6 +200,33 @@ def test_what_was_drawn_overlapping_is_let_out_gently() -> None:
     pos, vel = moved.states(grid(3.0))
     assert np.abs(vel).max() < 0.1
     assert abs(pos[-1, 1, 1] - 0.75) < 1e-4
+
+
+# The ledger -------------------------------------------------------------------------------------
+
+
+def test_heat_is_what_friction_impacts_and_dampers_make() -> None:
+    slides = Scene((floor(ROUGH), box("A", 0.0, 0.25, 0.5, 0.5, velocity=(2.0, 0.0, 0.0))))
+    falls = Scene((disc("A", 0.0, 1.25, material=Material(restitution=0.5)), floor()))
+    tie = spring("s", "A", (0.0, 0.0), 1.0, 40.0, 3.0)
+    swings = Scene((disc("A", 1.5, 0.0),), springs=(tie,), gravity=(0.0, 0.0))
+    for scene, seconds, heat, step in (
+        (slides, 1.0, 2.0, 1e-4),
+        (falls, 0.6, 0.75 * G, 1e-12),
+        (swings, 8.0, 5.0, 3e-3),
+    ):
+        moved = run(scene, seconds, sleep=False)
+        assert moved.ledger(grid(seconds))[-1, 0] == pytest.approx(heat, rel=1e-9)
+        # Counted blow by blow, not only as what is missing.
+        assert np.abs(moved.corrected(grid(seconds))).max() < step
+
+
+@pytest.mark.parametrize("scene", [pendulum(1.0), rod_pendulum(1.0)])
+def test_what_the_steps_take_or_give_is_small_and_does_not_grow(scene: Scene) -> None:
+    moved = run(scene, 10.0, sleep=False)
+    taken = moved.corrected(grid(10.0))
+    assert np.abs(taken).max() < 2e-3
+    assert np.abs(taken[480:]).max() < 1.5 * np.abs(taken[:120]).max()
 
 
 # Impacts ----------------------------------------------------------------------------------------
@@ -265,7 +299,7 @@ def test_a_pinned_bar_keeps_its_pin_and_its_energy() -> None:
     moved = run(rod_pendulum(1.0), 3.0)
     pos, _ = moved.states(grid(3.0))
     ends = link_ends(moved.given, pos)
-    assert np.abs(ends[:, 0, 0] - ends[:, 0, 1]).max() < 1e-4
+    assert np.abs(ends[:, 0, 0] - ends[:, 0, 1]).max() < 1e-5
     energy = mechanical(moved, 3.0)
     assert np.ptp(energy) < 1e-3 * 2.0 * G * 1.2
 

@@ -10,6 +10,9 @@ from __future__ import annotations
 from math import hypot, sqrt
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from physics.engine.robust.manifold import (
     BOUNCE,
     GAIN,
@@ -28,6 +31,7 @@ from physics.engine.robust.manifold import (
     TAU,
     WN,
     WT,
+    renew,
 )
 from physics.engine.robust.memory import (
     ACTIVE,
@@ -37,24 +41,31 @@ from physics.engine.robust.memory import (
     GIVES,
     GOAL,
     IMPULSE,
-    LEAST,
+    SPURT,
     WHEN,
     acc_of,
     bars_of,
     ends_of,
     jacobian_of,
+    place_of,
+    pos_of,
     real_of,
     row_of,
     shift_of,
     tally_of,
+    turns_of,
     vel_of,
     when_of,
     whole_of,
 )
-from physics.engine.robust.soft import haul, opening, press, rate_of, settle, slipping
+from physics.engine.robust.rates import haul, opening, press, rate_of, slipping
+from physics.engine.robust.soft import bring_up, bring_up_rows, settle
 from physics.engine.rows import CORD
 from physics.engine.tables import gravity, inverses
 from physics.jit import part
+from sketch.ink import FloatArray
+
+IntArray = NDArray[np.int64]
 
 FAST = 1e-4
 """m/s: what closes more slowly, over what gravity makes in a substep, lands without an impact."""
@@ -62,6 +73,8 @@ ROUNDS = 8
 """Of impacts in consequence of one another within a substep; after them all that still close are dead."""
 SWEEPS = 60.0
 """Rounds of sweeps in one."""
+TAUT = 2e-6
+"""m: a wire with no more slack bears a blow."""
 CLOSE = 1e-11
 """m/s: sweeps of an impact end when no rate changes by more."""
 ROUNDING = 1e-12
@@ -89,7 +102,7 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
     vel, real, whole, bars = vel_of(m), real_of(m), whole_of(m), bars_of(m)
     contacts, rows = tally_of(m)[CONTACTS], m.rows
     gx, gy = gravity(w)[0], gravity(w)[1]
-    acc, since, jacobian, ends = acc_of(m), when_of(m), jacobian_of(m), ends_of(m)
+    acc, jacobian, ends, shift = acc_of(m), jacobian_of(m), ends_of(m), shift_of(m)
     for k in range(contacts):
         real[HIT, k] = 0.0
     rounds = 0
@@ -98,7 +111,10 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
         struck = False
         for k in range(contacts):
             pull = opening(real, whole, k, acc)
-            rate, when = approach(real[GAP, k], opening(real, whole, k, vel), pull, lag, h)
+            gap = real[GAP, k]
+            if rounds > 0:
+                gap += opening(real, whole, k, shift)
+            rate, when = approach(gap, opening(real, whole, k, vel), pull, lag, h)
             whole[LIVE, k] = 0
             if rate < -FAST - h * abs(real[NX, k] * gx + real[NY, k] * gy):
                 if not struck and rounds == 0:
@@ -106,26 +122,33 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
                 struck = True
                 whole[LIVE, k] = 1
                 real[HIT, k] = max(real[HIT, k], -rate)
-                real[RATE, k], real[TAU, k] = rate, when
-                real[GAIN, k] = (lag + when) * pull
-                if rounds > 0:
-                    real[TAU, k] = max(when, since[whole[ONE, k]], since[whole[OTHER, k]])
+                real[TAU, k] = when
         for k in range(rows):
             row = row_of(m, k)
             rate = rate_of(jacobian, ends, k, vel)
-            bars[k, GOAL] = min(rate, 0.0) if bars[k, LEAST] == 0.0 else rate
-            bars[k, WHEN], bars[k, CLOSING] = -1.0, 0.0
+            bars[k, GOAL], bars[k, CLOSING], bars[k, SPURT], bars[k, WHEN] = rate, rate, 0.0, h
             if row.kind == CORD and bars[k, ACTIVE] == 1.0:
+                # A slack wire bears nothing.
+                bars[k, GOAL] = min(rate, 0.0) if row.gap <= TAUT else -np.inf
                 pull = rate_of(jacobian, ends, k, acc)
-                rate, when = approach(row.gap, rate, pull, lag, h)
-                if rate < -FAST - 2.0 * h * (abs(row.c) + hypot(gx, gy)):
+                gap = row.gap
+                if rounds > 0:
+                    gap += rate_of(jacobian, ends, k, shift)
+                fast, when = approach(gap, rate, pull, lag, h)
+                if fast < -FAST - 2.0 * h * (abs(row.c) + hypot(gx, gy)):
                     if not struck and rounds == 0:
                         _begin(m)
                     struck = True
-                    bars[k, GOAL], bars[k, WHEN], bars[k, CLOSING] = -(lag + when) * pull, when, rate
+                    bars[k, GOAL], bars[k, SPURT] = -(lag + when) * pull, (lag + when) * pull
+                    bars[k, WHEN] = when
         if not struck:
             break
+        _agree(w, m, h)
+        _aim(m, inverses(w), lag)
+        if rows > 0:
+            bring_up_rows(w, m, place_of(m), vel)
         loss += _solve(w, m, rounds < ROUNDS)
+        bring_up(w, m)
         rounds += 1
     if rounds > 0:
         for k in range(contacts):
@@ -148,6 +171,85 @@ def _begin(m: Any) -> None:
 
 
 @part
+def _agree(w: Any, m: Any, h: float) -> None:
+    """All that is struck together is struck at one moment, the first of its blows: what is struck too soon enters
+    nothing, and a blow runs through wires and pins at once. Poses at that moment go to `place`."""
+    real, whole, bars, ends, since = real_of(m), whole_of(m), bars_of(m), ends_of(m), when_of(m)
+    pos, vel, shift, place, inverse = pos_of(m), vel_of(m), shift_of(m), place_of(m), inverses(w)
+    contacts, bodies = tally_of(m)[CONTACTS], len(pos)
+    group, first, last = np.arange(bodies), np.full(bodies, h), np.zeros(bodies)
+    for k in range(contacts):
+        if whole[LIVE, k] == 1:
+            _join(group, inverse, whole[ONE, k], whole[OTHER, k])
+    for k in range(m.rows):
+        if bars[k, ACTIVE] == 1.0 and bars[k, GOAL] > -np.inf:
+            _join(group, inverse, ends[k, 0], ends[k, 1])
+    for k in range(contacts):
+        if whole[LIVE, k] == 1:
+            for end in range(2):
+                at = _root(group, whole[ONE + end, k])
+                first[at] = min(first[at], real[TAU, k])
+    for k in range(m.rows):
+        for end in range(2):
+            at = _root(group, ends[k, end])
+            first[at] = min(first[at], bars[k, WHEN])
+    for i in range(bodies):
+        at = _root(group, i)
+        if inverse[i, 0] > 0.0 or inverse[i, 2] > 0.0:
+            last[at] = max(last[at], since[i])
+    for k in range(contacts):
+        if whole[LIVE, k] == 1:
+            real[TAU, k] = _moment(group, inverse, first, last, whole[ONE, k], whole[OTHER, k])
+    for k in range(m.rows):
+        bars[k, WHEN] = _moment(group, inverse, first, last, ends[k, 0], ends[k, 1])
+    for i in range(bodies):
+        at = _root(group, i)
+        when = max(first[at], last[at])
+        for q in range(3):
+            place[i, q] = pos[i, q] + shift[i, q] + when * vel[i, q]
+
+
+@part
+def _root(group: IntArray, i: int) -> int:
+    while group[i] != i:
+        group[i] = group[group[i]]
+        i = group[i]
+    return i
+
+
+@part
+def _join(group: IntArray, inverse: FloatArray, i: int, j: int) -> None:
+    """Of two bodies that can both move."""
+    if (inverse[i, 0] > 0.0 or inverse[i, 2] > 0.0) and (inverse[j, 0] > 0.0 or inverse[j, 2] > 0.0):
+        one, other = _root(group, i), _root(group, j)
+        group[max(one, other)] = min(one, other)
+
+
+@part
+def _moment(
+    group: IntArray, inverse: FloatArray, first: FloatArray, last: FloatArray, i: int, j: int
+) -> float:
+    """When bodies i and j are struck: what is fixed says nothing."""
+    at = _root(group, i if inverse[i, 0] > 0.0 or inverse[i, 2] > 0.0 else j)
+    return max(first[at], last[at])
+
+
+@part
+def _aim(m: Any, inverse: FloatArray, lag: float) -> None:
+    """Normals and levers of what is struck, where bodies are at the moment of the blow: through other points it
+    would change their angular momentum."""
+    vel, acc, real, whole, place = vel_of(m), acc_of(m), real_of(m), whole_of(m), place_of(m)
+    turns = turns_of(m).copy()
+    for i in range(len(place)):
+        turns[i, 0], turns[i, 1] = np.cos(place[i, 2]), np.sin(place[i, 2])
+    for k in range(tally_of(m)[CONTACTS]):
+        if whole[LIVE, k] == 1:
+            renew(k, place, turns, inverse, real, whole)
+            real[GAIN, k] = (lag + real[TAU, k]) * opening(real, whole, k, acc)
+            real[RATE, k] = opening(real, whole, k, vel) + real[GAIN, k]
+
+
+@part
 def _solve(w: Any, m: Any, lively: bool) -> float:
     """One round; the energy that it takes, J. Newton's restitution and friction together can create energy (Kane
     and Levinson 1985): then the round is dead, which never does."""
@@ -163,7 +265,7 @@ def _solve(w: Any, m: Any, lively: bool) -> float:
             real[TARGET, k] = -real[GAIN, k] - bounce * real[BOUNCE, k] * real[RATE, k]
         for k in range(rows):
             bars[k, IMPULSE] = 0.0
-        settle(real, whole, bars, jacobian, ends, inverse, contacts, vel, SWEEPS, CLOSE)
+        settle(real, whole, bars, jacobian, ends, inverse, contacts, vel, SWEEPS, CLOSE, 1.0)
         loss = 0.0
         scale = 0.0
         for k in range(contacts):
@@ -187,8 +289,10 @@ def _solve(w: Any, m: Any, lively: bool) -> float:
             since[i], since[j] = max(since[i], when), max(since[j], when)
     for k in range(rows):
         if bars[k, IMPULSE] != 0.0:
-            loss -= 0.5 * bars[k, IMPULSE] * bars[k, CLOSING]
-            when = bars[k, WHEN] if bars[k, WHEN] >= 0.0 else max(since[ends[k, 0]], since[ends[k, 1]])
-            haul(jacobian, ends, inverse, k, -when * bars[k, IMPULSE], shift)
+            rate = rate_of(jacobian, ends, k, vel)
+            loss -= bars[k, IMPULSE] * (0.5 * (bars[k, CLOSING] + rate) + bars[k, SPURT])
+            for end in range(2):
+                since[ends[k, end]] = max(since[ends[k, end]], bars[k, WHEN])
+            haul(jacobian, ends, inverse, k, -bars[k, WHEN] * bars[k, IMPULSE], shift)
             bars[k, GIVES] = max(bars[k, GIVES], bars[k, IMPULSE])
     return loss

@@ -19,7 +19,8 @@ IntArray = NDArray[np.int64]
 
 class Crowd(NamedTuple):
     """pos, vel: poses now, velocities half a substep ago; acc: of the last kick; now: velocities now; before:
-    velocities before an impact; shift: what impacts within the substep add to the way; all (bodies + 1, 3)."""
+    velocities before an impact; shift: what impacts within the substep add to the way; place: poses at an
+    impact; all (bodies + 1, 3)."""
 
     pos: FloatArray
     vel: FloatArray
@@ -28,6 +29,7 @@ class Crowd(NamedTuple):
     before: FloatArray
     start: FloatArray
     shift: FloatArray
+    place: FloatArray
     force: FloatArray
     total: FloatArray
     turns: FloatArray
@@ -82,6 +84,10 @@ class Record(NamedTuple):
     ends: IntArray
     forces: FloatArray
     pairs: NDArray[np.int32]
+    struck: FloatArray
+    """(records, bodies + 1): how long after the record each body was struck, s; −1: not before the next."""
+    jump: FloatArray
+    """(records, bodies + 1, 3): by how much that changed its velocity."""
 
 
 def crowd_of(world: World, names: Names, pos: FloatArray, vel: FloatArray, ledger: FloatArray) -> Crowd:
@@ -106,6 +112,7 @@ def crowd_of(world: World, names: Names, pos: FloatArray, vel: FloatArray, ledge
         flat(),
         flat(),
         flat(),
+        flat(),
         np.ones((bodies + 1, 2)),
         np.zeros(bodies + 1),
         *contact_room(16),
@@ -125,7 +132,7 @@ def crowd_of(world: World, names: Names, pos: FloatArray, vel: FloatArray, ledge
         np.zeros(len(ledger)),
         ledger,
         np.zeros(1),
-        np.array([0, 0, 0, 0, 0, 0, 0, -1, 0, 0], np.int64),
+        np.array([0, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0], np.int64),
         np.zeros((64, EVENT)),
     )
     return gathered(arrays)

@@ -10,18 +10,19 @@ from physics.engine.robust.manifold import REALS, WHOLES
 from physics.engine.rows import ROW
 
 CONTACTS, PAIRS, EVENTS, RECORDS, PRESSED, NEEDS, DONE, STOPPED, STILL, SWEPT = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
+LANDED = 10
 """Columns of `tally`: contacts; pairs that are near; events, records and recorded contact forces; what must
 grow; substeps done; the program without a value (−1: none); substeps without any motion; whether the pairs
-were ever swept."""
-TALLY = 10
+were ever swept; whether something landed in the last kick."""
+TALLY = 11
 
 BUCKLED, GIVES, LEAST, MOST, GOAL, HEFT = 0, 1, 2, 3, 4, 5
 """Columns of `bars`, one line for each row of `rows`: whether its wire hangs slack; the greatest impulse of an
 impact in this substep, N s; bounds of its impulse, N s; the rate wanted, m/s; the mass it meets, kg."""
-IMPULSE, WHEN, ASIDE, ACTIVE, OLD, WAY, CLOSING = 6, 7, 8, 9, 10, 11, 12
+IMPULSE, WHEN, ASIDE, ACTIVE, OLD, WAY, CLOSING, SPURT = 6, 7, 8, 9, 10, 11, 12, 13
 """Impulse; moment of an impact, s; impulse kept aside; taking part; impulse a round ago, and the direction in
-which it goes on; how fast a wire tautens, m/s."""
-BARS = 13
+which it goes on; its rate before an impact, and what that gains until then, m/s."""
+BARS = 14
 
 LAST = 0
 """Column of `reals`: length of the last kick, s."""
@@ -41,6 +42,7 @@ BLOCKS = {
     "before": (REAL, ("bodies", 3)),
     "start": (REAL, ("bodies", 3)),
     "shift": (REAL, ("bodies", 3)),
+    "place": (REAL, ("bodies", 3)),
     "force": (REAL, ("bodies", 3)),
     "total": (REAL, ("bodies", 3)),
     "turns": (REAL, ("bodies", 2)),
@@ -89,6 +91,8 @@ start_of = LAYOUT.numbers("start")
 """(bodies, 3) velocities at the start of the substep."""
 shift_of = LAYOUT.numbers("shift")
 """(bodies, 3) what impacts within the substep add to the way."""
+place_of = LAYOUT.numbers("place")
+"""(bodies, 3) poses at the moment of an impact."""
 force_of = LAYOUT.numbers("force")
 """(bodies, 3) forces, constraints' apart, N, N, N m."""
 total_of = LAYOUT.numbers("total")

@@ -2,8 +2,8 @@
 
 Leapfrog (position Verlet: Verlet 1967; with contacts: Moreau 1999): velocities live half a substep before
 poses, the first kick is half a one, so poses are exact for constant acceleration, along a flat incline
-too. A substep: impacts; a kick by all forces and the impulses that keep gaps open; a drift. A gap may
-close, but not more: its rate must be at least −gap / h, which is a drift of just that gap.
+too. A substep: poses put right; impacts; a kick by all forces and the impulses that keep gaps open; a
+drift. A gap may close, but not more: its rate must be at least −gap / h, which is a drift of just that gap.
 Wires and pins are held by the same law from both sides, with the rate that their bending adds (SHAKE:
 Ryckaert, Ciccotti and Berendsen 1977).
 
@@ -19,17 +19,18 @@ from numpy.typing import NDArray
 
 from physics.engine.cells import head
 from physics.engine.forces import add, clearance, powers, put
-from physics.engine.robust.collide import strike
+from physics.engine.robust.collide import FAST, strike
 from physics.engine.robust.crowd import Record
-from physics.engine.robust.manifold import GAP, NX, NY, ONE, OTHER, PAIR, PN, PT, PX, PY, TARGET
+from physics.engine.robust.keep import keep, mark
+from physics.engine.robust.manifold import GAP, NX, NY, ONE, OTHER, PN, PT, TARGET
 from physics.engine.robust.memory import (
     ACTIVE,
     CONTACTS,
     DONE,
     EVENTS,
-    FORCE,
     GOAL,
     IMPULSE,
+    LANDED,
     LAST,
     LEAST,
     MEMORY,
@@ -63,16 +64,16 @@ from physics.engine.robust.memory import (
     whole_of,
 )
 from physics.engine.robust.near import find
-from physics.engine.robust.soft import bring_up, haul, opening, press, push_apart, rate_of, settle
+from physics.engine.robust.project import project
+from physics.engine.robust.rates import haul, opening, press, rate_of
+from physics.engine.robust.soft import bring_up, settle
 from physics.engine.robust.watch import release, watch_contacts, watch_rest, watch_supports, watch_wires
-from physics.engine.rows import CORD, GIVEN, POINT
+from physics.engine.rows import CORD, GIVEN, POINT, refresh
 from physics.engine.tables import (
     WORLD,
     course_of,
-    gravity,
     inverses,
     masses,
-    pair_of,
     reaches,
     support_of,
     value,
@@ -156,7 +157,11 @@ def _begin(w: Any, m: Any, lag: float) -> None:
     pos, vel, acc, now, start = pos_of(m), vel_of(m), acc_of(m), now_of(m), start_of(m)
     turns, when, force, inverse, reach = turns_of(m), when_of(m), force_of(m), inverses(w), reaches(w)
     for i in range(len(pos)):
-        most = LANDING * (abs(force[i, 0]) * inverse[i, 0] + abs(force[i, 1]) * inverse[i, 1])
+        most = (
+            np.inf
+            if tally_of(m)[LANDED] == 0
+            else LANDING * (abs(force[i, 0]) * inverse[i, 0] + abs(force[i, 1]) * inverse[i, 1])
+        )
         if abs(acc[i, 0]) + abs(acc[i, 1]) > most:
             acc[i, 0], acc[i, 1], acc[i, 2] = 0.0, 0.0, 0.0
         elif abs(acc[i, 2]) * reach[i] > most + LANDING * abs(force[i, 2]) * inverse[i, 2] * reach[i]:
@@ -169,7 +174,7 @@ def _begin(w: Any, m: Any, lag: float) -> None:
 
 
 @part
-def _sync(w: Any, m: Any, lag: float, kick: float) -> None:
+def _sync(w: Any, m: Any, lag: float, kick: float, struck: bool) -> None:
     """Accelerations by the kick, and velocities at its time."""
     vel, acc, now, start, before = vel_of(m), acc_of(m), now_of(m), start_of(m), before_of(m)
     inverse = inverses(w)
@@ -177,14 +182,14 @@ def _sync(w: Any, m: Any, lag: float, kick: float) -> None:
         for q in range(3):
             free = inverse[i, q] > 0.0
             acc[i, q] = (vel[i, q] - (before[i, q] if free else start[i, q])) / kick
-            # What is struck has another velocity at once; before that, it went on as it did.
-            if before[i, q] == start[i, q] or not free:
+            # What is struck has another velocity at once; before that, all went on as they did.
+            if not (struck and free):
                 now[i, q] = start[i, q] + lag * acc[i, q]
 
 
 @part
 def _drift(w: Any, m: Any, movable: int, h: float, struck: bool) -> None:
-    """Poses after h seconds, overlap let out, and whether anything moved (`STILL`)."""
+    """Poses after h seconds, and whether anything moved (`STILL`)."""
     vel, acc, pos, shift, asked, tally = (
         vel_of(m),
         acc_of(m),
@@ -203,16 +208,6 @@ def _drift(w: Any, m: Any, movable: int, h: float, struck: bool) -> None:
         course = course_of(w, k)
         if course.on == 1:
             pos[course.body, course.axis] = asked[w.supports + k]
-    gx, gy = gravity(w)[0], gravity(w)[1]
-    level, mass = 0.0, masses(w)
-    for i in range(movable):
-        level -= mass[i, 0] * (gx * pos[i, 0] + gy * pos[i, 1])
-    if push_apart(w, m, h):
-        quiet = False
-        for i in range(movable):
-            level += mass[i, 0] * (gx * pos[i, 0] + gy * pos[i, 1])
-        # What a push lifts had fallen too far: that much less was turned into heat.
-        ledger_of(m)[0] += level
     tally[STILL] = tally[STILL] + 1 if quiet else 0
 
 
@@ -228,14 +223,17 @@ def _goals(w: Any, m: Any, h: float, kick: float, struck: bool) -> None:
         for q in range(3):
             before[i, q] = vel[i, q]
     for k in range(tally_of(m)[CONTACTS]):
-        gap = max(real[GAP, k], 0.0)
+        gap = real[GAP, k]
         if struck:
             gap += opening(real, whole, k, shift)
-        real[TARGET, k] = -gap / h
+        # What is too near already is moved away (`part_overlaps`), never driven: that would make energy.
+        real[TARGET, k] = -max(gap, 0.0) / h
         real[PN, k] *= warm
         real[PT, k] *= warm
     for k in range(m.rows):
         row = row_of(m, k)
+        if struck:
+            refresh(row, pos, vel)
         bars[k, IMPULSE] *= warm
         if row.kind == GIVEN or row.kind == POINT:
             support = support_of(w, row.source)
@@ -246,11 +244,12 @@ def _goals(w: Any, m: Any, h: float, kick: float, struck: bool) -> None:
             bars[k, ACTIVE], bars[k, GOAL], bars[k, LEAST], bars[k, MOST] = 1.0, 0.0, -most, most
             bars[k, IMPULSE] = min(max(bars[k, IMPULSE], -most), most)
             continue
-        off = row.gap + 0.5 * h * h * row.c
+        gap = row.gap
+        if gap < 0.0 or row.kind != CORD:
+            gap = min(max(gap, -CREEP), CREEP)
+        off = gap + 0.5 * h * h * row.c
         if struck:
             off += rate_of(jacobian, ends, k, shift)
-        if off < 0.0 or row.kind != CORD:
-            off = min(max(off, -CREEP), CREEP)
         bars[k, GOAL] = -off / h
 
 
@@ -271,7 +270,7 @@ def _kick(w: Any, m: Any, movable: int, kick: float) -> float:
             bars[k, IMPULSE] = 0.0
         elif bars[k, IMPULSE] != 0.0:
             haul(jacobian, ends, inverse, k, bars[k, IMPULSE], vel)
-    settle(real, whole, bars, jacobian, ends, inverse, contacts, vel, ROUNDS, CLOSE)
+    settle(real, whole, bars, jacobian, ends, inverse, contacts, vel, ROUNDS, CLOSE, 1.0)
     heat = 0.0
     for i in range(movable):
         for q in range(3):
@@ -302,72 +301,16 @@ def _sum_up(m: Any, kick: float) -> None:
 
 
 @part
-def _keep(w: Any, m: Any, record: Record, kick: float) -> None:
-    tally, bars, ledger, rows = tally_of(m), bars_of(m), ledger_of(m), m.rows
-    at = tally[RECORDS]
-    _copy(pos_of(m), record.pos, at)
-    _copy(now_of(m), record.vel, at)
-    _copy(acc_of(m), record.acc, at)
-    for k in range(m.entries):
-        record.ledger[at, k] = ledger[k]
-    for k in range(rows):
-        record.pulls[at, k] = bars[k, IMPULSE] / kick
-    tally[PRESSED] = _press_on(
-        w,
-        real_of(m),
-        whole_of(m),
-        tally[CONTACTS],
-        record.pairs,
-        record.forces,
-        tally[PRESSED],
-        kick,
-    )
-    record.ends[at] = tally[PRESSED]
-    tally[RECORDS] = at + 1
-
-
-@part
-def _copy(now: FloatArray, kept: FloatArray, at: int) -> None:
-    for i in range(len(now)):
-        for q in range(3):
-            kept[at, i, q] = now[i, q]
-
-
-@part
-def _press_on(
-    w: Any,
-    real: FloatArray,
-    whole: IntArray,
-    contacts: int,
-    numbers: NDArray[np.int32],
-    forces: FloatArray,
-    pressed: int,
-    kick: float,
-) -> int:
-    """Adds the forces of pairs that press, each at its centre of pressure; how many there are now."""
-    last = -1
-    weight = 0.0
-    for k in range(contacts):
-        normal, along = real[PN, k], real[PT, k]
-        if normal <= 0.0:
-            continue
-        pair = whole[PAIR, k]
-        if pair != last:
-            last, weight = pair, 0.0
-            numbers[pressed] = pair
-            for q in range(FORCE):
-                forces[pressed, q] = 0.0
-            pressed += 1
-        at = pressed - 1
-        sign = (1.0 if whole[OTHER, k] == pair_of(w, pair).j else -1.0) / kick
-        forces[at, 0] += sign * real[NX, k] * normal
-        forces[at, 1] += sign * real[NY, k] * normal
-        forces[at, 2] -= sign * real[NY, k] * along
-        forces[at, 3] += sign * real[NX, k] * along
-        weight += normal
-        forces[at, 4] += (real[PX, k] - forces[at, 4]) * normal / weight
-        forces[at, 5] += (real[PY, k] - forces[at, 5]) * normal / weight
-    return pressed
+def _landed(m: Any) -> None:
+    """Tells whether a kick stopped something that was still apart: such a force does not last."""
+    real, tally = real_of(m), tally_of(m)
+    tally[LANDED] = 0
+    for k in range(tally[CONTACTS]):
+        if real[PN, k] > 0.0 and real[TARGET, k] < -FAST:
+            tally[LANDED] = 1
+    for k in range(m.rows):
+        if row_of(m, k).kind == CORD and bars_of(m)[k, IMPULSE] > 0.0 and bars_of(m)[k, GOAL] < -FAST:
+            tally[LANDED] = 1
 
 
 @kernel
@@ -405,10 +348,11 @@ def run(
         _begin(w, m, lag)
         if not find(w, m, movable, h, room):
             return
+        bring_up(w, m)
+        righted = project(w, m, h)
         add(w, t, pos, now, force)
         if not _ask(w, m, movable, t, h):
             return
-        bring_up(w, m)
         if w.courses > 0:
             release(w, m, t, h, lag)
         watch_supports(w, m, t)
@@ -417,7 +361,7 @@ def run(
         watch_contacts(m, t, struck)
         _goals(w, m, h, kick, struck)
         heat = _kick(w, m, movable, kick)
-        _sync(w, m, lag, kick)
+        _sync(w, m, lag, kick, struck)
         if w.courses > 0:
             _sum_up(m, kick)
         # Heat and work of the kick, half of it before the time t.
@@ -425,11 +369,14 @@ def run(
         for k in range(len(ledger)):
             ledger[k] += lag * power[k]
         if done % each == 0:
-            _keep(w, m, record, kick)
+            keep(w, m, record, kick)
+        if struck:
+            mark(m, record, (done % each) * h)
+        _landed(m)
         for k in range(len(ledger)):
             ledger[k] += 0.5 * h * power[k]
         ledger[0] += max(loss, 0.0)
-        _drift(w, m, movable, h, struck)
+        _drift(w, m, movable, h, struck or righted)
         watch_wires(w, m, t, kick, h)
         reals_of(m)[LAST] = kick
         tally[DONE] += 1

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from physics.engine.acts import Act, applied
+from physics.engine.acts import Act, applied, energies
 from physics.engine.forces import ledger_size
 from physics.engine.robust.broad import ROOM
 from physics.engine.robust.crowd import Record, contact_room, crowd_of, gathered, near_room
@@ -68,6 +68,8 @@ class RobustRun:
             np.zeros(8, np.int64),
             np.zeros((32, FORCE)),
             np.zeros(32, np.int32),
+            np.full((8, bodies), -1.0),
+            np.zeros((8, bodies, 3)),
         )
         self.steps = 0
         self.stopped = self.asleep = False
@@ -99,8 +101,9 @@ class RobustRun:
             self.steps = (self._records() - 1) // SUBSTEPS
 
     def cut(self, time: float) -> None:
-        """Forgets all that was recorded after `time`, s. The run cannot go on from there."""
-        kept = max(int(np.floor((time - self.start) / self.pitch + 1e-9)) + 1, 1)
+        """Forgets what was recorded after `time`, s, but the record that ends the way there. The run cannot go on
+        from there."""
+        kept = max(ceil((time - self.start) / self.pitch - 1e-9) + 1, 1)
         if kept < self._records():
             self.crowd.tally[RECORDS] = kept
             self.crowd.tally[PRESSED] = self.record.ends[kept - 1]
@@ -120,20 +123,58 @@ class RobustRun:
         way = x1 - x0
         pos = x0 + s * (v0 + s * (3 * way - 2 * v0 - v1 + s * (v0 + v1 - 2 * way)))
         vel = (v0 + s * (6 * way - 4 * v0 - 2 * v1 + s * 3 * (v0 + v1 - 2 * way))) / h
+        self._break(at, after, share, pos, vel)
         if self.asleep or self.stopped:
             vel[times > self.start + self.pitch * (self._records() - 1) + 1e-9] = 0.0
         return pos, vel
+
+    def _break(
+        self, at: IntArray, after: IntArray, share: FloatArray, pos: FloatArray, vel: FloatArray
+    ) -> None:
+        """Where a body is struck between two records, its velocity jumps; beside that, all go evenly from one to the
+        other, those too that are not struck, so that momentum is kept on the way."""
+        record, h = self.record, self.pitch
+        frames = np.flatnonzero((record.struck[at] >= 0.0).any(axis=1) & (share > 0.0))
+        if not len(frames):
+            return
+        first, last = at[frames], after[frames]
+        x0, x1, v0, v1 = record.pos[first], record.pos[last], record.vel[first], record.vel[last]
+        hit, jump, s = record.struck[first][:, :, None], record.jump[first], share[frames][:, None, None] * h
+        even = (v1 - v0 - jump) / h
+        apart = x1 - x0 - h * (v0 + 0.5 * h * even) - (h - hit) * jump
+        pos[frames] = x0 + s * (v0 + 0.5 * s * even + apart / h) + np.maximum(s - hit, 0.0) * jump
+        vel[frames] = v0 + s * even + (s > hit) * jump
 
     def place(self, time: float, at: IntArray, pos: FloatArray) -> None:
         """Writes the poses at one time into the rows `at` of pos, (bodies, 3), one for each that can move."""
         pos[at] = self.states(np.array([time]))[0][0, : self.names.movable]
 
     def ledger(self, times: FloatArray) -> FloatArray:
-        """Heat and works, (T, entries) J: see `forces.ledger_size`."""
+        """Heat and works, (T, entries) J: see `forces.ledger_size`. Heat holds what `corrected` tells, too."""
+        times = np.minimum(times, self.start + self.pitch * (self._records() - 1))
         at, share = self._places(times)
         after = np.minimum(at + 1, self._records() - 1)
         found = self.record.ledger
-        return found[at] + share[:, None] * (found[after] - found[at])
+        entries = found[at] + share[:, None] * (found[after] - found[at])
+        worked = entries[:, 1:].sum(axis=1) - found[0, 1:].sum()
+        first = self._mechanical(np.full(1, self.start))
+        entries[:, 0] = found[0, 0] + first + worked - self._mechanical(times)
+        return entries
+
+    def corrected(self, times: FloatArray) -> FloatArray:
+        """Energy that the steps themselves have taken (negative: given), (T,) J: errors of their length, poses put
+        right. It is the part of the ledger's heat that neither rubbing nor damping nor an impact made."""
+        at, share = self._places(times)
+        found, since = (
+            self.record.ledger,
+            self.start + self.pitch * np.arange(self._records(), dtype=np.float64),
+        )
+        heat = self.ledger(since)[:, 0] - found[: len(since), 0]
+        after = np.minimum(at + 1, len(since) - 1)
+        return heat[at] + share * (heat[after] - heat[at])
+
+    def _mechanical(self, times: FloatArray) -> FloatArray:
+        return sum(energies(self.given, self.names, *self.states(times)), np.zeros(len(times)))
 
     def observe(self, times: FloatArray) -> tuple[list[Act], FloatArray]:
         """All forces, and accelerations (T, bodies + 1, 3): of the substep in which each time lies."""
@@ -151,7 +192,7 @@ class RobustRun:
     def _records(self) -> int:
         return int(self.crowd.tally[RECORDS])
 
-    def _places(self, times: FloatArray) -> tuple[np.ndarray[Any, np.dtype[np.int64]], FloatArray]:
+    def _places(self, times: FloatArray) -> tuple[IntArray, FloatArray]:
         """The record before each time, and how far to the next, 0 to 1."""
         units = (np.asarray(times) - self.start) / self.pitch
         whole = np.rint(units)
@@ -208,7 +249,10 @@ class RobustRun:
             grown = max(wanted, len(record.pos))
             record = record._replace(
                 **{name: _grown(getattr(record, name), grown) for name in ("pos", "vel", "acc")},
-                **{name: _grown(getattr(record, name), grown) for name in ("ledger", "pulls", "ends")},
+                **{
+                    name: _grown(getattr(record, name), grown)
+                    for name in ("ledger", "pulls", "ends", "struck", "jump")
+                },
             )
         pressed = int(tally[PRESSED])
         if pressed + len(crowd.near) > len(record.forces):

@@ -3,8 +3,8 @@
 Projected Gauss-Seidel (Moreau 1988; Jean and Moreau 1992): each takes the impulse that makes its own
 rate right, clamped to what it may be: a contact only pushes, friction stays within Coulomb's bound.
 Sweeps go forth and back and begin with the last substep's impulses, which are the answer wherever
-nothing changes. Overlap is let out by a soft contact's law of position alone (Catto 2024, "Solver2D"):
-what it moves gains no speed, so no energy of motion.
+nothing changes. Where that has not settled after a few rounds all active rows are solved at once
+(physics.engine.robust.leap), and sweeps go on from there.
 """
 
 from __future__ import annotations
@@ -14,16 +14,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from physics.engine.robust.leap import leap
 from physics.engine.robust.manifold import (
     CA,
     CB,
     DN,
     DT,
     EASE,
-    GAP,
     KN,
     KT,
-    LIFT,
     LIVE,
     MU,
     NX,
@@ -50,17 +49,16 @@ from physics.engine.robust.memory import (
     OLD,
     WAY,
     bars_of,
-    ends_of,
     jacobian_of,
     now_of,
     pos_of,
     real_of,
     row_of,
-    shift_of,
     tally_of,
     turns_of,
     whole_of,
 )
+from physics.engine.robust.rates import haul, press, rate_of
 from physics.engine.rows import CORD, GIVEN, POINT, refresh
 from physics.engine.tables import inverses, link_of, support_of
 from physics.jit import part
@@ -68,27 +66,27 @@ from sketch.ink import FloatArray
 
 IntArray = NDArray[np.int64]
 
-PUSH_RATE = 9.0
-"""1/s: overlap goes at this share of itself per second: ω / (2ζ + ωh) of a soft contact of 30 Hz and damping
-ratio 10 at 240 Hz."""
-PUSH_SPEED = 1.0
-"""m/s: however deep it is."""
-SLOP = 1e-6
-"""m: overlap that is left as it is, and far below what can be seen."""
 SMALL, ENOUGH = 1e-7, 6.0
 """m/s: smaller changes need no more than so many rounds; at rest the next substep goes on where this one ended."""
-PUSHES = 4
-"""Sweeps over the pushes, which start from those of the last substep."""
+PATIENCE = 3.0
+"""Rounds of sweeps before all is solved at once."""
 
 
 @part
 def bring_up(w: Any, m: Any) -> None:
     """Contacts and rows at the poses of now."""
-    jacobian, bars, inverse, pos, now = jacobian_of(m), bars_of(m), inverses(w), pos_of(m), now_of(m)
-    renew_all(tally_of(m)[CONTACTS], pos, turns_of(m), inverse, real_of(m), whole_of(m))
+    pos = pos_of(m)
+    renew_all(tally_of(m)[CONTACTS], pos, turns_of(m), inverses(w), real_of(m), whole_of(m))
+    bring_up_rows(w, m, pos, now_of(m))
+
+
+@part
+def bring_up_rows(w: Any, m: Any, pos: FloatArray, vel: FloatArray) -> None:
+    """Rows at these poses and velocities."""
+    jacobian, bars, inverse = jacobian_of(m), bars_of(m), inverses(w)
     for k in range(m.rows):
         row = row_of(m, k)
-        refresh(row, pos, now)
+        refresh(row, pos, vel)
         light = 0.0
         rubs = row.kind == GIVEN or row.kind == POINT
         for q in range(6):
@@ -107,73 +105,6 @@ def bring_up(w: Any, m: Any) -> None:
 
 
 @part
-def opening(real: FloatArray, whole: IntArray, k: int, vel: FloatArray) -> float:
-    """How fast contact k's gap opens, m/s."""
-    i, j = whole[ONE, k], whole[OTHER, k]
-    return (
-        real[NX, k] * (vel[j, 0] - vel[i, 0])
-        + real[NY, k] * (vel[j, 1] - vel[i, 1])
-        + real[CB, k] * vel[j, 2]
-        - real[CA, k] * vel[i, 2]
-    )
-
-
-@part
-def slipping(real: FloatArray, whole: IntArray, k: int, vel: FloatArray) -> float:
-    """How fast contact k slips, m/s."""
-    i, j = whole[ONE, k], whole[OTHER, k]
-    return (
-        real[NX, k] * (vel[j, 1] - vel[i, 1])
-        - real[NY, k] * (vel[j, 0] - vel[i, 0])
-        + real[TB, k] * vel[j, 2]
-        - real[TA, k] * vel[i, 2]
-    )
-
-
-@part
-def press(
-    real: FloatArray,
-    whole: IntArray,
-    inverse: FloatArray,
-    k: int,
-    normal: float,
-    tangent: float,
-    vel: FloatArray,
-) -> None:
-    """Applies impulses along normal and tangent of contact k."""
-    i, j = whole[ONE, k], whole[OTHER, k]
-    x = real[NX, k] * normal - real[NY, k] * tangent
-    y = real[NY, k] * normal + real[NX, k] * tangent
-    vel[i, 0] -= inverse[i, 0] * x
-    vel[i, 1] -= inverse[i, 1] * y
-    vel[i, 2] -= inverse[i, 2] * (real[CA, k] * normal + real[TA, k] * tangent)
-    vel[j, 0] += inverse[j, 0] * x
-    vel[j, 1] += inverse[j, 1] * y
-    vel[j, 2] += inverse[j, 2] * (real[CB, k] * normal + real[TB, k] * tangent)
-
-
-@part
-def rate_of(jacobian: FloatArray, ends: IntArray, k: int, vel: FloatArray) -> float:
-    """The rate of row k: of its slack, of a pin's gap, of slip."""
-    i, j = ends[k, 0], ends[k, 1]
-    rate = 0.0
-    for q in range(3):
-        rate += jacobian[k, q] * vel[i, q] + jacobian[k, 3 + q] * vel[j, q]
-    return rate
-
-
-@part
-def haul(
-    jacobian: FloatArray, ends: IntArray, inverse: FloatArray, k: int, impulse: float, vel: FloatArray
-) -> None:
-    """Applies an impulse along row k."""
-    i, j = ends[k, 0], ends[k, 1]
-    for q in range(3):
-        vel[i, q] += inverse[i, q] * jacobian[k, q] * impulse
-        vel[j, q] += inverse[j, q] * jacobian[k, 3 + q] * impulse
-
-
-@part
 def _sweep(
     real: FloatArray,
     whole: IntArray,
@@ -183,6 +114,7 @@ def _sweep(
     inverse: FloatArray,
     contacts: int,
     vel: FloatArray,
+    rub: float,
     back: int,
 ) -> float:
     """Once over all rows and contacts; the greatest change of a rate, m/s."""
@@ -211,10 +143,10 @@ def _sweep(
         ix, iy, iw = inverse[i, 0], inverse[i, 1], inverse[i, 2]
         jx, jy, jw = inverse[j, 0], inverse[j, 1], inverse[j, 2]
         old = real[PN, k]
-        if real[MU, k] > 0.0:
+        if rub * real[MU, k] > 0.0:
             ta, tb = real[TA, k], real[TB, k]
             slip = nx * (wy - uy) - ny * (wx - ux) + tb * ww - ta * uw
-            most, was = real[MU, k] * max(old, 0.0), real[PT, k]
+            most, was = rub * real[MU, k] * max(old, 0.0), real[PT, k]
             along = min(max(was - slip * real[KT, k], -most), most)
             real[PT, k] = along
             more = along - was
@@ -243,11 +175,12 @@ def settle(
     vel: FloatArray,
     rounds: float,
     close: float,
+    rub: float,
 ) -> None:
     """Sweeps forth and back until no rate changes by more than `close`, m/s, at most so many rounds, and at most
     `ENOUGH` once changes are `SMALL`. Before a round all go on along a conjugate direction (Silcowitz, Niebuhr
     and Erleben 2010), for sweeps alone carry a force only one contact further each time."""
-    done, share, gone = 0.0, 0.0, 0.0
+    done, share, gone, again = 0.0, 0.0, 0.0, PATIENCE
     while True:
         for k in range(contacts):
             dn, dt = share * real[DN, k], share * real[DT, k]
@@ -267,12 +200,21 @@ def settle(
             bars[k, IMPULSE] += more
         change = 0.0
         for back in range(2):
-            change = _sweep(real, whole, bars, jacobian, ends, inverse, contacts, vel, back)
+            change = _sweep(real, whole, bars, jacobian, ends, inverse, contacts, vel, rub, back)
             if change <= close:
                 return
         done += 1.0
         if done >= rounds or (change <= SMALL and done >= ENOUGH):
             return
+        if done == again:
+            again += PATIENCE + done
+            if leap(real, whole, bars, jacobian, ends, inverse, contacts, vel, rub):
+                share, gone = 0.0, 0.0
+                for k in range(contacts):
+                    real[DN, k], real[DT, k] = 0.0, 0.0
+                for k in range(len(bars)):
+                    bars[k, WAY] = 0.0
+                continue
         # Gradient: what the sweeps alone changed. Direction: it and a share of the one before.
         size = 0.0
         for k in range(contacts):
@@ -288,43 +230,3 @@ def settle(
                 bars[k, WAY] += more
         share = min(size / gone, 1.0) if gone > 0.0 else 0.0
         gone = size
-
-
-@part
-def push_apart(w: Any, m: Any, h: float) -> bool:
-    """Moves bodies so that overlap grows less; whether there was any. Rows and other contacts yield nothing."""
-    real, whole, contacts, inverse = real_of(m), whole_of(m), tally_of(m)[CONTACTS], inverses(w)
-    deepest = 0.0
-    for k in range(contacts):
-        deepest = max(deepest, -real[GAP, k])
-    if deepest <= SLOP:
-        return False
-    shift, bars, pos, jacobian, ends = shift_of(m), bars_of(m), pos_of(m), jacobian_of(m), ends_of(m)
-    for i in range(len(shift)):
-        shift[i, 0], shift[i, 1], shift[i, 2] = 0.0, 0.0, 0.0
-    for k in range(contacts):
-        if real[GAP, k] >= 0.0:
-            real[LIFT, k] = 0.0
-        elif real[LIFT, k] > 0.0:
-            press(real, whole, inverse, k, real[LIFT, k], 0.0, shift)
-    for turn in range(PUSHES):
-        for step in range(contacts):
-            k = step if turn % 2 == 0 else contacts - 1 - step
-            gap = real[GAP, k]
-            wanted = -gap if gap > 0.0 else h * min(-gap * PUSH_RATE, PUSH_SPEED)
-            more = (wanted - opening(real, whole, k, shift)) * real[KN, k]
-            more = max(more, -real[LIFT, k])
-            if more != 0.0:
-                real[LIFT, k] += more
-                press(real, whole, inverse, k, more, 0.0, shift)
-        for k in range(m.rows):
-            if bars[k, ACTIVE] == 1.0 and bars[k, MOST] == np.inf:
-                away = rate_of(jacobian, ends, k, shift)
-                if bars[k, LEAST] < 0.0 or away < -max(row_of(m, k).gap, 0.0):
-                    haul(jacobian, ends, inverse, k, -away * bars[k, HEFT], shift)
-    for i in range(len(shift)):
-        for q in range(3):
-            if inverse[i, q] > 0.0:
-                pos[i, q] += shift[i, q]
-            shift[i, q] = 0.0
-    return True

@@ -33,7 +33,7 @@ from physics.engine.robust.memory import (
     vel_of,
     whole_of,
 )
-from physics.engine.robust.soft import opening
+from physics.engine.robust.rates import opening
 from physics.engine.rows import CORD
 from physics.engine.tables import course_of, inverses, link_of, masses, reaches, support_of
 from physics.engine.world import WIRE
