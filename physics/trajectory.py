@@ -66,14 +66,16 @@ class ForceSeries:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Energy:
-    """The ledger, (T,) joules each: kinetic + potential + elastic + dissipated − worked is constant where
-    the engine is right. dissipated: heat of friction, damping and impacts, in robust mode also what its
-    steps took or gave (`physics.engine.robust.run.RobustRun.corrected`); worked: by the student's forces; works: the same for each of them, by (name, body)."""
+    """The ledger, (T,) joules each: kinetic + potential + elastic + dissipated + corrected − worked is constant
+    where the engine is right. dissipated: heat of friction, damping and impacts; corrected: what the small steps of
+    robust mode took (negative: gave) by being no shorter, zero in exact mode; worked: by the student's forces;
+    works: the same for each of them, by (name, body)."""
 
     kinetic: FloatArray
     potential: FloatArray
     elastic: FloatArray
     dissipated: FloatArray
+    corrected: FloatArray
     worked: FloatArray
     works: Mapping[tuple[str, str], FloatArray] = field(default_factory=dict[tuple[str, str], FloatArray])
 

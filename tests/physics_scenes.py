@@ -254,7 +254,8 @@ def mechanical(moved: Trajectory) -> np.ndarray:
 
 def ledger(moved: Trajectory) -> np.ndarray:
     """What is constant where an engine is right, (T,) J."""
-    return mechanical(moved) + moved.energy.dissipated - moved.energy.worked
+    energy = moved.energy
+    return mechanical(moved) + energy.dissipated + energy.corrected - energy.worked
 
 
 def events(moved: Trajectory, kind: EventKind) -> list[Event]:

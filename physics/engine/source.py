@@ -55,7 +55,7 @@ class SceneSource:
         accelerations = np.zeros((len(times), len(column), 3))
         forces: dict[tuple[str, str], ForceSeries] = {}
         ledger = np.zeros((len(times), 3))
-        heat = np.zeros(len(times))
+        heat, corrected = np.zeros((2, len(times)))
         works: dict[tuple[str, str], FloatArray] = {}
         links = (*self.scene.springs, *self.scene.wires, *self.scene.pins)
         anchors = {link.label: np.full((len(times), 2, 2), np.nan) for link in links}
@@ -76,7 +76,7 @@ class SceneSource:
                 ends = link_ends(run.world, pos)
                 for k, label in enumerate(names.links):
                     anchors[label][here] = ends[:, k]
-            self._add_works(strand, held, heat, works)
+            self._add_works(strand, held, heat, corrected, works)
         for strand in self.strands:
             for event in (event for run in strand.runs for event in run.events if event.kind == "break"):
                 anchors[event.bodies[0]][times >= event.time] = np.nan
@@ -84,7 +84,7 @@ class SceneSource:
             ledger[times > self.stopped, 0] = 0.0
         series = tuple(self._shown(force, times) for force in forces.values())
         worked = np.sum(list(works.values()), axis=0) if works else np.zeros(len(times))
-        energy = Energy(ledger[:, 0], ledger[:, 1], ledger[:, 2], heat, worked, works)
+        energy = Energy(ledger[:, 0], ledger[:, 1], ledger[:, 2], heat, corrected, worked, works)
         return Observed(accelerations, series, energy, anchors)
 
     def _frames(self, strand: Strand, times: FloatArray) -> tuple[int, int]:
@@ -107,7 +107,12 @@ class SceneSource:
         ]
 
     def _add_works(
-        self, strand: Strand, times: FloatArray, heat: FloatArray, works: dict[tuple[str, str], FloatArray]
+        self,
+        strand: Strand,
+        times: FloatArray,
+        heat: FloatArray,
+        corrected: FloatArray,
+        works: dict[tuple[str, str], FloatArray],
     ) -> None:
         """What a cluster's ledger adds, also after its end. A later run's ledger goes on from the one before."""
         for k, run in enumerate(strand.runs):
@@ -118,6 +123,7 @@ class SceneSource:
                 continue
             entries = run.ledger(np.minimum(times[here], end))
             heat[here] += entries[:, 0]
+            corrected[here] += run.corrected(np.minimum(times[here], end))
             names, world = run.names, run.world
             keys = [(name, int(push["body"])) for name, push in zip(names.pushes, world.pushes, strict=True)]
             keys += [

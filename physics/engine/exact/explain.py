@@ -123,8 +123,9 @@ def _explain(
 
 
 def _constraints(rows: Table, names: Names, pulls: FloatArray) -> list[Act]:
-    """Forces of wires, pins and contacts: one for each pair and part, at the centre of pressure."""
-    groups: dict[tuple[str, int, bool, bool], list[int]] = {}
+    """Forces of wires, pins and contacts: one for each pair and part, at the centre of pressure. Corners of either of
+    two blocks on faces of the other are one contact."""
+    groups: dict[tuple[str, int, bool], list[tuple[int, bool]]] = {}
     for r, row in enumerate(rows):
         if row["status"] != ON:
             continue
@@ -134,30 +135,30 @@ def _constraints(rows: Table, names: Names, pulls: FloatArray) -> list[Act]:
                 continue
             if CORD <= kind < GIVEN:
                 name = f"{'T of' if kind == CORD else 'pin'} {names.links[row['source']]}"
-                groups.setdefault((name, body, on_j, False), []).append(r)
+                groups.setdefault((name, body, False), []).append((r, on_j))
                 continue
             if kind != GIVEN:
-                groups.setdefault((f"contact with {names.bodies[other]}", body, on_j, False), []).append(r)
+                groups.setdefault((f"contact with {names.bodies[other]}", body, False), []).append((r, on_j))
             if row["grip"] != FREE:
-                groups.setdefault((f"friction of {names.bodies[other]}", body, on_j, True), []).append(r)
-    return [
-        _summed(name, body, on_j, rubs, rows, pulls[:, members], members)
-        for (name, body, on_j, rubs), members in groups.items()
-    ]
+                groups.setdefault((f"friction of {names.bodies[other]}", body, True), []).append((r, on_j))
+    return [_summed(name, body, rubs, rows, pulls, of) for (name, body, rubs), of in groups.items()]
 
 
 def _summed(
-    name: str, body: int, on_j: bool, rubs: bool, rows: Table, pulls: FloatArray, members: list[int]
+    name: str, body: int, rubs: bool, rows: Table, pulls: FloatArray, of: list[tuple[int, bool]]
 ) -> Act:
-    """Several rows as one force. pulls: (T, members, 10)."""
+    """Several rows as one force, each as it acts on its second body or on its first. pulls: (T, rows, 10)."""
+    members = [r for r, _ in of]
+    on_j = np.array([second for _, second in of])[None, :, None]
+    mine = pulls[:, members]
     if rubs:
-        values = pulls[:, :, 2:4].sum(axis=1) * (1.0 if on_j else -1.0)
+        values = np.where(on_j, mine[:, :, 2:4], -mine[:, :, 2:4]).sum(axis=1)
     else:
-        values = pulls[:, :, 0:2].sum(axis=1) if on_j else pulls[:, :, 6:8].sum(axis=1)
-    sizes = np.hypot(pulls[:, :, 0], pulls[:, :, 1])
+        values = np.where(on_j, mine[:, :, 0:2], mine[:, :, 6:8]).sum(axis=1)
+    sizes = np.hypot(mine[:, :, 0], mine[:, :, 1])
     whole = sizes.sum(axis=1, keepdims=True)
     shares = np.where(whole > 0.0, sizes / np.where(whole > 0.0, whole, 1.0), 1.0 / len(members))
-    points = (shares[:, :, None] * (pulls[:, :, 4:6] if on_j else pulls[:, :, 8:10])).sum(axis=1)
+    points = (shares[:, :, None] * np.where(on_j, mine[:, :, 4:6], mine[:, :, 8:10])).sum(axis=1)
     # How two corners of one face share their load is nobody's question, if nothing else carries it.
     return Act(name, body, values, points, all(bool(rows[r]["unique"]) for r in members))
 

@@ -150,28 +150,22 @@ class RobustRun:
         pos[at] = self.states(np.array([time]))[0][0, : self.names.movable]
 
     def ledger(self, times: FloatArray) -> FloatArray:
-        """Heat and works, (T, entries) J: see `forces.ledger_size`. Heat holds what `corrected` tells, too."""
-        times = np.minimum(times, self.start + self.pitch * (self._records() - 1))
-        at, share = self._places(times)
+        """Heat and works, (T, entries) J: see `forces.ledger_size`."""
+        at, share = self._places(self._known(times))
         after = np.minimum(at + 1, self._records() - 1)
         found = self.record.ledger
-        entries = found[at] + share[:, None] * (found[after] - found[at])
-        worked = entries[:, 1:].sum(axis=1) - found[0, 1:].sum()
-        first = self._mechanical(np.full(1, self.start))
-        entries[:, 0] = found[0, 0] + first + worked - self._mechanical(times)
-        return entries
+        return found[at] + share[:, None] * (found[after] - found[at])
 
     def corrected(self, times: FloatArray) -> FloatArray:
         """Energy that the steps themselves have taken (negative: given), (T,) J: errors of their length, poses put
-        right. It is the part of the ledger's heat that neither rubbing nor damping nor an impact made."""
-        at, share = self._places(times)
-        found, since = (
-            self.record.ledger,
-            self.start + self.pitch * np.arange(self._records(), dtype=np.float64),
-        )
-        heat = self.ledger(since)[:, 0] - found[: len(since), 0]
-        after = np.minimum(at + 1, len(since) - 1)
-        return heat[at] + share * (heat[after] - heat[at])
+        right. It is what neither rubbing nor damping nor an impact made heat of."""
+        entries, first = self.ledger(times), self.record.ledger[0]
+        booked = entries[:, 1:].sum(axis=1) - first[1:].sum() - (entries[:, 0] - first[0])
+        return self._mechanical(np.full(1, self.start)) + booked - self._mechanical(self._known(times))
+
+    def _known(self, times: FloatArray) -> FloatArray:
+        """Times, none after the last record."""
+        return np.minimum(times, self.start + self.pitch * (self._records() - 1))
 
     def _mechanical(self, times: FloatArray) -> FloatArray:
         return sum(energies(self.given, self.names, *self.states(times)), np.zeros(len(times)))
