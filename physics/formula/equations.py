@@ -11,7 +11,7 @@ the motion has are unknown here where the page does not give them: an equation s
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isfinite
 
@@ -19,7 +19,7 @@ import sympy
 
 from physics.formula.program import Node, ProgramError, compile_tree
 from physics.formula.quantities import SOLIDS, quantities_named, quantity_of
-from physics.formula.said import Meanings, Relation, Said
+from physics.formula.said import Meanings, Relation, Said, names_in
 from physics.formula.standard import DENSITY, GRAVITY, PER_METRE
 from physics.formula.statements import labelled
 from physics.formula.units import in_si
@@ -195,7 +195,7 @@ def number(tree: Node, known: Mapping[sympy.Symbol, float] | None = None) -> flo
     """The value of a tree with numbers for known letters; None where that is no real, finite number."""
     values = {} if known is None else {symbol.name: value for symbol, value in known.items()}
     try:
-        program = compile_tree(tree, values.get)
+        program = compile_tree(tree, values.get, text="")
     except ProgramError:
         return _evaluated(tree, known or {})
     value = program.value(())
@@ -221,16 +221,12 @@ def sides(relation: Relation, letters: Letters) -> tuple[Node, Node]:
     return left, right
 
 
-def lacking(said: Said, said_all: Sequence[Said], names: frozenset[str]) -> bool:
+def lacking(said: Said, names: frozenset[str], doubled: frozenset[tuple[str, str | None]]) -> bool:
     """Whether a definition `F = m a` is an equation: its name is given by another line (a weight by the
-    mass), and it has names that no line gives."""
-    again = said.name == "W" or any(
-        one is not said
-        and one.name == said.name
-        and one.component == said.component
-        and one.expression != said.expression
-        for one in said_all
-    )
+    mass), and it has names that no line gives. names: all that lines give; doubled: those of one owner
+    that several do."""
+    if said.name != "W" and (said.name, said.component) not in doubled:
+        return False
     given = {*names, "g", "t", "x", "y", "W", *(("m",) if said.name == "W" else ())}
-    missing = {symbol.name for symbol in getattr(said.tree, "free_symbols", ())} - given
-    return again and bool(missing) and any(quantities_named(name) for name in missing)
+    missing = names_in(said.tree) - given
+    return any(quantities_named(name) for name in missing)

@@ -13,11 +13,12 @@ from collections.abc import Mapping
 
 from physics.formula.quantities import LINKS, SOLIDS, Quantity, Role, quantity_of
 from physics.formula.remarks import conflicts, impossible
-from physics.formula.said import Meanings, Relation, Said, names_used
+from physics.formula.said import Meanings, Relation, Said, names_in, names_used
 from physics.formula.solve import solve
 from physics.formula.standard import DENSITY, GRAVITY, PER_METRE
 from physics.formula.statements import belongs, meant, stated
 from physics.formula.units import in_si, settled
+from sketch.formula.units import unit
 from sketch.page import Component, Sketch
 from sketch.shapes import Point
 
@@ -78,10 +79,11 @@ def _said(one: Said, parts: Mapping[str, Component], notices: list[str]) -> Said
 
 def _newtons(said: tuple[Said, ...]) -> list[str]:
     """0.3 N, where the page also gives a normal force N."""
-    given = {one.name for one in said}
-    notices: list[str] = []
-    for one in said:
-        letters = {str(symbol) for symbol in getattr(one.given, "free_symbols", ())}
-        if "N" in letters & given and "N" not in names_used((one,)):
-            notices.append(f"{one.text}: N after a number is the newton; write it with * for the force N.")
-    return notices
+    if not any(one.name == "N" for one in said):
+        return []
+    newton = unit("N")
+    return [
+        f"{one.text}: N after a number is the newton; write it with * for the force N."
+        for one in said
+        if one.given is not None and one.given.has(newton) and "N" not in names_in(one.tree)
+    ]

@@ -10,6 +10,7 @@ import sympy
 
 from physics.formula.meaning import DENSITY, GRAVITY, PER_METRE, SOLIDS, Meanings, Said
 from physics.formula.program import STATE, Lookup, Node, ProgramError, Reading, compile_tree
+from physics.formula.said import names_in
 from physics.formula.statements import labelled
 from physics.formula.vectors import split
 from sketch.geometry import solid_area
@@ -35,7 +36,7 @@ def mass_of(sketch: Sketch, meanings: Meanings, component: Component) -> tuple[f
         if role == "weight":
             # A weight that is worked out from the mass, as in W = m g, tells nothing of the mass.
             g = gravity_of(sketch, meanings) or GRAVITY
-            if value is None or "m" in {str(symbol) for symbol in said.tree.free_symbols}:
+            if value is None or "m" in names_in(said.tree):
                 continue
             value = value / g
         if role == "density" and value is not None:

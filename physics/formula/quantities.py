@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal
 
 from physics.formula.si import (
@@ -176,6 +177,7 @@ INSTEAD: Mapping[tuple[Role, Owner], str] = {
 """For what a thing cannot have: what a student may have meant, and what to write."""
 
 
+@lru_cache(maxsize=4096)
 def quantity_of(name: str, kind: Owner) -> Quantity | None:
     """The quantity that goes by this name on such a thing (kind None: the whole page); None when
     the name is nobody's, or not one that such a thing can have."""
@@ -185,6 +187,7 @@ def quantity_of(name: str, kind: Owner) -> Quantity | None:
     return None
 
 
+@lru_cache(maxsize=4096)
 def quantities_named(name: str) -> tuple[Quantity, ...]:
     """All quantities that anything could have under this name."""
     return tuple(quantity for quantity in QUANTITIES if goes_by(name, quantity))

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from physics.formula.quantities import Quantity, Role, quantity_of
+from sketch.formula.units import Unit
 from sketch.shapes import ComponentKind, Point
 
 
@@ -84,4 +86,11 @@ class Meanings:
 
 def names_used(said: Iterable[Said | Relation]) -> frozenset[str]:
     """All names that the formulas of a page read."""
-    return frozenset(str(symbol) for one in said for symbol in getattr(one.tree, "free_symbols", ()))
+    return frozenset().union(*(names_in(one.tree) for one in said))
+
+
+@lru_cache(maxsize=4096)
+def names_in(tree: Any) -> frozenset[str]:
+    """The names in a tree, its units not among them."""
+    symbols: Iterable[Any] = getattr(tree, "free_symbols", ())
+    return frozenset(symbol.name for symbol in symbols if not isinstance(symbol, Unit))

@@ -87,7 +87,8 @@ class Solved:
 def solve(sketch: Sketch, said: Sequence[Said], relations: Sequence[Relation]) -> Solved:
     """What the equations of a page give beside what it says."""
     names = frozenset(one.name for one in said)
-    twins = [one for one in said if lacking(one, said, names)] if relations or _doubled(said) else []
+    doubled = _doubled(said)
+    twins = [one for one in said if lacking(one, names, doubled)]
     kept = [one for one in said if one not in twins]
     turned = [
         Relation(
@@ -129,13 +130,12 @@ class _Equation:
         return {symbol for symbol in symbols if symbol in letters.unknown and symbol not in letters.known}
 
 
-def _doubled(said: Sequence[Said]) -> bool:
-    seen: set[tuple[str, str | None]] = set()
+def _doubled(said: Sequence[Said]) -> frozenset[tuple[str, str | None]]:
+    """Names of one owner that several lines give."""
+    lines: dict[tuple[str, str | None], set[int | None]] = {}
     for one in said:
-        if (one.name, one.component) in seen:
-            return True
-        seen.add((one.name, one.component))
-    return False
+        lines.setdefault((one.name, one.component), set()).add(one.expression)
+    return frozenset(key for key, indices in lines.items() if len(indices) > 1)
 
 
 def _systems(equations: Sequence[_Equation], letters: Letters) -> list[list[_Equation]]:
@@ -190,7 +190,10 @@ def _worked(system: list[_Equation], letters: Letters, notices: list[str]) -> li
 
 
 def _unknowns(system: Sequence[_Equation], letters: Letters) -> list[sympy.Symbol]:
-    return sorted({symbol for equation in system for symbol in equation.unknowns(letters)}, key=str)
+    return sorted(
+        {symbol for equation in system for symbol in equation.unknowns(letters)},
+        key=lambda symbol: symbol.name,
+    )
 
 
 def _difference(equation: _Equation, letters: Letters) -> Node:
@@ -228,7 +231,7 @@ def _branches(
 ) -> list[tuple[float, ...]] | str:
     """All real solutions, a number for each unknown; or why there are none."""
     equations = tuple(_difference(equation, letters) for equation in system)
-    operations = sum(int(sympy.count_ops(equation)) for equation in equations)
+    operations = sum(_operations(equation) for equation in equations)
     if len(unknowns) > LIMITS.unknowns or len(system) > LIMITS.equations or operations > LIMITS.operations:
         return "too long to be solved here; write it as name = value."
     solutions = _solutions(equations, tuple(unknowns))
@@ -241,6 +244,11 @@ def _branches(
         if len(real) == len(unknowns) and not any(_near(real, other) for other in found):
             found.append(real)
     return found or "no real numbers solve this; is something written wrongly?"
+
+
+@lru_cache(maxsize=512)
+def _operations(equation: Node) -> int:
+    return int(sympy.count_ops(equation))
 
 
 @lru_cache(maxsize=512)

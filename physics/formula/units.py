@@ -2,7 +2,7 @@
 
 Coherent SI units are 1; angles are exact multiples of π, in radians; for all others pint's
 definitions are used, as exact fractions. pint is imported when the first such unit is met, which
-takes about 0.3 s once.
+takes about 0.3 s once. Trees never change, so what was once worked out of one is remembered.
 
 A few letters are both: the language reads `2 m` as two metres and `500 g` as 500 times g. Where
 that cannot be what the left side needs, and the other reading is, the other is taken (`settled`).
@@ -90,6 +90,7 @@ def _registry() -> Any:
     return pint.UnitRegistry(non_int_type=exact)
 
 
+@lru_cache(maxsize=4096)
 def in_si(tree: Node) -> tuple[Node, str | None]:
     """The tree without units, in SI, and which conversions that took, in words (None: none)."""
     units = _units_of(tree)
@@ -101,6 +102,7 @@ def in_si(tree: Node) -> tuple[Node, str | None]:
     return plain_tree, "; ".join(told) or None
 
 
+@lru_cache(maxsize=4096)
 def size_of_units(tree: Node) -> Dimension:
     """The dimension of a product of units and numbers; what is neither counts as a number."""
     size = NUMBER
@@ -115,6 +117,7 @@ def has_units(tree: Node) -> bool:
     return bool(_units_of(tree))
 
 
+@lru_cache(maxsize=4096)
 def settled(tree: Node, size: Dimension, name: str) -> Settled:
     """The right side of `name = tree`, which must be of this size: letters after a number read as units
     or as quantities, whichever can be."""
