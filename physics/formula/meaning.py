@@ -17,7 +17,7 @@ from physics.formula.said import Meanings, Relation, Said, names_in, names_used
 from physics.formula.solve import solve
 from physics.formula.standard import DENSITY, GRAVITY, PER_METRE
 from physics.formula.statements import belongs, meant, stated
-from physics.formula.units import in_si, settled
+from physics.formula.units import has_units, in_si, settled
 from sketch.formula.units import unit
 from sketch.page import Component, Sketch
 from sketch.shapes import Point
@@ -73,6 +73,9 @@ def _said(one: Said, parts: Mapping[str, Component], notices: list[str]) -> Said
         if reading.remark is not None:
             notices.append(f"{reading.remark}.")
     tree, converted = in_si(given)
+    wired = owner is not None and any(part.kind == "wire" and owner in part.ends for part in parts.values())
+    if quantity is not None and quantity.role == "period" and wired and not has_units(given):
+        notices.append(f"{one.text} of {owner} is taken for a period; a tension is said of the wire.")
     anchor = one.anchor if owner == one.component else None
     return Said(name, owner, tree, one.text, anchor, one.expression, quantity, given, converted)
 

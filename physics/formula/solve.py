@@ -286,7 +286,7 @@ def _possible(
         ):
             able.append(branch)
     moving = [branch for branch in able if any(value != 0 for value in branch)]
-    return min(moving or able, key=lambda branch: tuple(abs(value) for value in branch), default=None)
+    return min(moving or able, key=lambda branch: tuple((abs(v), v < 0) for v in branch), default=None)
 
 
 def _can_be(value: float, role: Role | None) -> bool:
