@@ -73,11 +73,15 @@ def _said(one: Said, parts: Mapping[str, Component], notices: list[str]) -> Said
         if reading.remark is not None:
             notices.append(f"{reading.remark}.")
     tree, converted = in_si(given)
-    wired = owner is not None and any(part.kind == "wire" and owner in part.ends for part in parts.values())
-    if quantity is not None and quantity.role == "period" and wired and not has_units(given):
+    if quantity is not None and quantity.role == "period" and not has_units(given) and _hangs(owner, parts):
         notices.append(f"{one.text} of {owner} is taken for a period; a tension is said of the wire.")
     anchor = one.anchor if owner == one.component else None
     return Said(name, owner, tree, one.text, anchor, one.expression, quantity, given, converted)
+
+
+def _hangs(label: str | None, parts: Mapping[str, Component]) -> bool:
+    """Whether a wire is tied to it."""
+    return label is not None and any(label in part.ends and part.kind == "wire" for part in parts.values())
 
 
 def _newtons(said: tuple[Said, ...]) -> list[str]:

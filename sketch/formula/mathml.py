@@ -18,6 +18,7 @@ _TIMES = "<mo>&#x2062;</mo>"
 """Invisible times."""
 _APPLY = "<mo>&#x2061;</mo>"
 """Function application."""
+_ONE_NAME = re.compile(r"<mi>[^<]*</mi>|<msub>(?:(?!<msub>).)*</msub>")
 _SUBSCRIPT = re.compile(r"[0-9]+|[A-Za-z]+")
 
 
@@ -109,7 +110,7 @@ def _call(name: str, argument: str) -> str:
         case "norm":
             return _fenced("‖", argument, "‖")
         case "sum":
-            return _row(f"<mo>∑</mo>{_brackets(argument) if argument.count('<mi') != 1 else argument}")
+            return _row(f"<mo>∑</mo>{argument if _ONE_NAME.fullmatch(argument) else _brackets(argument)}")
         case _:
             return _row(f"<mi>{name}</mi>{_APPLY}{_brackets(argument)}")
 

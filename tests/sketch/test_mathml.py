@@ -5,7 +5,7 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from strategies import trees
 from sympy.core.basic import Basic
 
@@ -54,6 +54,7 @@ def spoken(element: ET.Element) -> str:
 
 @settings(max_examples=100, deadline=None)
 @given(trees)
+@example(parse("sum(1 + pi) + sum(F_x) + sum(F_1 F_2)"))
 def test_mathml_reads_back_as_the_same_tree(tree: Basic) -> None:
     text = spoken(ET.fromstring(mathml(tree)))
     try:
