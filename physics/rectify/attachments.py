@@ -7,13 +7,14 @@ boundary already is where it is meant to be. Page units.
 
 from __future__ import annotations
 
+from collections.abc import Container
 from dataclasses import dataclass, replace
 from math import hypot, radians, sin
 
-from physics.rectify.correction import Rectified, changes, reshaped
+from physics.rectify.correction import Correction, Step, made
 from sketch.geometry import nearest_on_boundary
-from sketch.page import Component, Sketch
-from sketch.shapes import Circle, Point, Polygon, Shape, Solid, Spring, Wire
+from sketch.page import Sketch
+from sketch.shapes import Circle, Point, Polygon, Solid, Spring, Wire
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,23 +34,23 @@ class AttachmentRule:
 RULE = AttachmentRule()
 
 
-def attach(sketch: Sketch) -> Rectified:
-    """C4 on every spring and wire of the page."""
-    shapes: dict[str, Shape] = {}
+def attach(sketch: Sketch, skipped: Container[str] = ()) -> Step:
+    """C4 on every spring and wire of the page but those skipped."""
+    after = sketch
+    corrections: list[Correction] = []
+    why = "its ends are put on the boundary of what they are attached to"
     for part in sketch.components:
-        if isinstance(part.shape, Spring | Wire):
+        if isinstance(part.shape, Spring | Wire) and part.label not in skipped:
             start, end = part.shape.start, part.shape.end
             holders = [_holder(sketch, label) for label in part.ends]
             new_start = start if holders[0] is None else _clipped(holders[0], start, end)
             new_end = end if holders[1] is None else _clipped(holders[1], end, start)
             if (new_start, new_end) != (start, end) and new_start != new_end:
-                shapes[part.label] = replace(part.shape, start=new_start, end=new_end)
-    after = reshaped(sketch, shapes)
-    return Rectified(after, changes("C4", _why, sketch, after))
-
-
-def _why(part: Component) -> str:
-    return f"{part.label}: its ends are put on the boundary of what they are attached to."
+                shape = replace(part.shape, start=new_start, end=new_end)
+                step = made("C4", part.label, after, {part.label: shape}, why, why)
+                after = step.sketch
+                corrections += step.corrections
+    return Step(after, tuple(corrections))
 
 
 def _holder(sketch: Sketch, label: str | None) -> Solid | None:

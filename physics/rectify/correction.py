@@ -1,37 +1,104 @@
-"""What was corrected, and pages with parts moved."""
+"""What was corrected, and how parts of a page move together. Page units, y down."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, replace
+from math import cos, hypot, sin
 from typing import Literal, assert_never
 
-import numpy as np
-
-from sketch.page import Component, Sketch
+from sketch.page import Sketch
 from sketch.shapes import Arrow, Circle, Point, Polygon, Shape, Spring, Wire
 
 Rule = Literal["C1", "C2", "C3", "C4", "C5"]
+RULES: tuple[Rule, ...] = ("C1", "C2", "C3", "C4", "C5")
+Key = tuple[Rule, str]
+"""What a correction is known by, however often a page is corrected: its rule, and the label of the
+component that the rule was applied to."""
 
 
 @dataclass(frozen=True, slots=True)
 class Correction:
     """rule: the row of the feature list; component: its label; why: a sentence for the student;
-    before, after: its shape, page units."""
+    before, after: its shape, page units; cause: the component that the rule was applied to, which is
+    another one where this one only follows it."""
 
     rule: Rule
     component: str
     why: str
     before: Shape
     after: Shape
+    cause: str
+
+    @property
+    def key(self) -> Key:
+        """Corrections of one key belong together: they are made and undone as one."""
+        return self.rule, self.cause
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A page after one rule, and what the rule changed, in order."""
+
+    sketch: Sketch
+    corrections: tuple[Correction, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Rectified:
-    """A corrected page, and everything that was changed, in order."""
+    """A corrected page, and everything that was changed, in order.
+
+    drawn: the page as it was; without: the corrections that were not to be made.
+    """
 
     sketch: Sketch
     corrections: tuple[Correction, ...]
+    drawn: Sketch
+    without: frozenset[Key] = frozenset()
+
+    @property
+    def displacement(self) -> float:
+        """The way of all vertices, centres and ends from where they were drawn, summed, page units."""
+        return sum(sum(moves) for moves in displacements(self.drawn, self.sketch).values())
+
+    @property
+    def farthest(self) -> float:
+        """The longest such way, page units."""
+        return max((max(moves) for moves in displacements(self.drawn, self.sketch).values()), default=0.0)
+
+
+def displacements(before: Sketch, after: Sketch) -> dict[str, tuple[float, ...]]:
+    """How far each vertex, centre or end of each component that changed has come, page units.
+
+    Where a polygon has been given other vertices than it had, each counts from the nearest old one.
+    """
+    found: dict[str, tuple[float, ...]] = {}
+    for old, new in zip(before.components, after.components, strict=True):
+        if old.shape != new.shape:
+            found[old.label] = _ways(old.shape, new.shape)
+    return found
+
+
+def _ways(old: Shape, new: Shape) -> tuple[float, ...]:
+    here, there = _points(old), _points(new)
+    if len(here) == len(there):
+        straight = [hypot(x - u, y - v) for (x, y), (u, v) in zip(here, there, strict=True)]
+        # Vertices may run the other way round now, from the same first one.
+        back = [hypot(x - u, y - v) for (x, y), (u, v) in zip([here[0], *here[:0:-1]], there, strict=True)]
+        return tuple(min(straight, back, key=sum) if isinstance(old, Polygon) else straight)
+    return tuple(min(hypot(x - u, y - v) for x, y in here) for u, v in there)
+
+
+def _points(shape: Shape) -> list[Point]:
+    match shape:
+        case Circle():
+            return [shape.centre]
+        case Polygon():
+            return [(x, y) for x, y in shape.vertices.tolist()]
+        case Spring() | Wire() | Arrow():
+            return [shape.start, shape.end]
+        case _:
+            assert_never(shape)
 
 
 Place = Callable[[Point], Point]
@@ -45,7 +112,7 @@ def shift(dx: float, dy: float) -> Place:
 
 def turn(about: Point, angle: float) -> Place:
     """Every point turned about one, by an angle from +x towards +y (clockwise to the eye)."""
-    cosine, sine = float(np.cos(angle)), float(np.sin(angle))
+    cosine, sine = cos(angle), sin(angle)
 
     def moved(point: Point) -> Point:
         x, y = point[0] - about[0], point[1] - about[1]
@@ -67,7 +134,7 @@ def carried(shape: Shape, place: Place) -> Shape:
             assert_never(shape)
 
 
-def reshaped(sketch: Sketch, shapes: dict[str, Shape]) -> Sketch:
+def reshaped(sketch: Sketch, shapes: Mapping[str, Shape]) -> Sketch:
     """The page with the shapes of some components replaced."""
     if not shapes:
         return sketch
@@ -80,27 +147,70 @@ def reshaped(sketch: Sketch, shapes: dict[str, Shape]) -> Sketch:
     )
 
 
-def moved(sketch: Sketch, label: str, place: Place) -> Sketch:
-    """The page with a solid moved; ends of springs and wires that are attached to it go along."""
-    shapes: dict[str, Shape] = {}
-    for part in sketch.components:
-        if part.label == label:
-            shapes[label] = carried(part.shape, place)
-        elif isinstance(part.shape, Spring | Wire) and label in part.ends:
-            start, end = part.shape.start, part.shape.end
-            start = place(start) if part.ends[0] == label else start
-            end = place(end) if part.ends[1] == label else end
+def taken_along(sketch: Sketch, places: Mapping[str, Place], held: Container[str]) -> dict[str, Shape]:
+    """New shapes where solids are moved, each by its own motion: of themselves, of the ends of links that are
+    attached to them, and of what hangs from them by a link of its own, which keeps its place below.
+
+    held: solids that do not follow a link, since they rest on something.
+    """
+    parts = {part.label: part for part in sketch.components}
+    links = [part for part in sketch.components if isinstance(part.shape, Spring | Wire)]
+    places = dict(places)
+    waiting = list(places)
+    while waiting:
+        label = waiting.pop(0)
+        for link in links:
+            if label not in link.ends:
+                continue
+            assert isinstance(link.shape, Spring | Wire)
+            near = 0 if link.ends[0] == label else 1
+            hung = link.ends[1 - near]
+            if hung is None or hung in places or hung in held or not hangs(sketch, hung):
+                continue
+            end = link.shape.start if near == 0 else link.shape.end
+            there = places[label](end)
+            places[hung] = shift(there[0] - end[0], there[1] - end[1])
+            waiting.append(hung)
+    found: dict[str, Shape] = {label: carried(parts[label].shape, place) for label, place in places.items()}
+    for link in links:
+        if link.ends[0] in places or link.ends[1] in places:
+            assert isinstance(link.shape, Spring | Wire)
+            start, end = (
+                place(point) if (place := places.get(label or "")) is not None else point
+                for point, label in zip((link.shape.start, link.shape.end), link.ends, strict=True)
+            )
             if start != end:
-                shapes[part.label] = replace(part.shape, start=start, end=end)
-    return reshaped(sketch, shapes)
+                found[link.label] = replace(link.shape, start=start, end=end)
+    return {label: shape for label, shape in found.items() if shape != parts[label].shape}
 
 
-def changes(
-    rule: Rule, why: Callable[[Component], str], before: Sketch, after: Sketch
-) -> tuple[Correction, ...]:
-    """A correction for each component whose shape differs between two pages."""
-    return tuple(
-        Correction(rule, old.label, why(old), old.shape, new.shape)
-        for old, new in zip(before.components, after.components, strict=True)
-        if old.shape != new.shape
+def hangs(sketch: Sketch, label: str) -> bool:
+    """Whether a solid can move and is held by one link only."""
+    if sketch.component(label).fixed:
+        return False
+    return sum(label in part.ends for part in sketch.components) == 1
+
+
+def made(
+    rule: Rule, cause: str, sketch: Sketch, shapes: Mapping[str, Shape], why: str, follows: str
+) -> Step:
+    """The page with new shapes, as one correction. why: of the cause itself; follows: of all others."""
+    after = reshaped(sketch, shapes)
+    return Step(
+        after,
+        tuple(
+            Correction(
+                rule,
+                part.label,
+                f"{part.label}: {why if part.label == cause else follows}.",
+                part.shape,
+                shapes[part.label],
+                cause,
+            )
+            for part in sorted(
+                (part for part in sketch.components if part.label in shapes),
+                key=lambda part: (part.label != cause, part.label),
+            )
+            if shapes[part.label] != part.shape
+        ),
     )
