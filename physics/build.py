@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 from physics.formula.meaning import GRAVITY, Meanings, read
 from physics.formula.names import constant_of, lookup, mass_of
+from physics.infer import act
 from physics.parts.courses import courses_of
-from physics.parts.forces import forces_of
 from physics.parts.given import Page, to_metres
 from physics.parts.links import links_of
 from physics.parts.solids import body_of, centre_of, solids_of
@@ -21,6 +21,10 @@ from sketch.page import Component, Sketch
 from sketch.shapes import Circle, Polygon
 
 __all__ = ["Built", "build", "to_metres"]
+
+
+NOTHING = Meanings((), ())
+"""What is said of most things."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,8 +46,10 @@ def build(sketch: Sketch) -> Built:
     courses = [course for part in solids for course in courses_of(page, part)]
     bodies = tuple(body_of(page, part, courses) for part in solids)
     springs, wires = links_of(page, {body.label: body for body in bodies})
-    forces, supports = forces_of(page, bodies)
-    scene = Scene(bodies, springs, wires, forces, supports, (0.0, -g), courses=tuple(courses))
+    acting = act(page, bodies)
+    scene = Scene(
+        acting.bodies, springs, wires, acting.forces, acting.supports, (0.0, -g), courses=tuple(courses)
+    )
     return Built(scene, tuple(dict.fromkeys(notices)))
 
 
@@ -63,11 +69,14 @@ def _gravity(sketch: Sketch, meanings: Meanings, notices: list[str]) -> float:
 def _page(
     sketch: Sketch, meanings: Meanings, solids: Sequence[Component], g: float, notices: list[str]
 ) -> Page:
+    spoken = frozenset(said.component for said in meanings.said)
     masses: dict[str, float] = {}
     starts: dict[str, tuple[float, float]] = {}
     for part in solids:
         assert isinstance(part.shape, Circle | Polygon)
-        masses[part.label], notice = mass_of(sketch, meanings, part)
+        masses[part.label], notice = mass_of(
+            sketch, meanings if part.label in spoken else NOTHING, part
+        )
         notices += [] if notice is None else [notice]
         starts[part.label] = centre_of(part.shape)
-    return Page(sketch, meanings, masses, starts, g, notices)
+    return Page(sketch, meanings, masses, starts, g, notices, spoken)

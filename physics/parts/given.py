@@ -24,7 +24,8 @@ def to_metres(point: Point) -> Vector:
 @dataclass(frozen=True, slots=True)
 class Page:
     """A page that is being turned into a scene. masses: kg, and starts: the centre as drawn, m, of every
-    solid that moves or is in the way; g: m/s²; notices: grow as things are found that cannot be."""
+    solid that moves or is in the way; g: m/s²; notices: grow as things are found that cannot be; spoken: the
+    labels of components of which something is said."""
 
     sketch: Sketch
     meanings: Meanings
@@ -32,14 +33,19 @@ class Page:
     starts: Mapping[str, Vector]
     g: float
     notices: list[str]
+    spoken: frozenset[str | None]
 
     def names(self, label: str) -> Lookup:
         """What names stand for in a component's formulas."""
         return lookup(self.sketch, self.meanings, label, self.masses, self.g)
 
+    def said(self, part: Component, role: Role) -> Said | None:
+        """The newest that is said of a component in this role."""
+        return self.meanings.of(part.label, role, part.kind) if part.label in self.spoken else None
+
     def constant(self, part: Component, role: Role, low: float, high: float, must: str) -> float | None:
         """A constant that the page gives a component, None when it gives none that can be."""
-        said = self.meanings.of(part.label, role, part.kind)
+        said = self.said(part, role)
         return None if said is None else self.value(said, part.label, low, high, must)
 
     def value(self, said: Said, label: str, low: float, high: float, must: str) -> float | None:

@@ -78,7 +78,7 @@ def _velocity(page: Page, part: Component, courses: dict[str, Course]) -> tuple[
     equation begins as that says."""
     must = "a velocity must be a number"
     x = y = 0.0
-    said = page.meanings.of(part.label, "velocity", part.kind)
+    said = page.said(part, "velocity")
     if said is not None and not moves(page, part, said):
         try:
             pair = split(said.tree)
@@ -97,7 +97,7 @@ def _velocity(page: Page, part: Component, courses: dict[str, Course]) -> tuple[
             ]
             x, y = (0.0 if value is None else value for value in parts)
     for role in ("v_x", "v_y"):
-        said = page.meanings.of(part.label, role, part.kind)
+        said = page.said(part, role)
         if said is None or moves(page, part, said):
             continue
         value = page.value(said, part.label, -1e6, 1e6, must)

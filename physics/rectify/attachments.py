@@ -11,10 +11,10 @@ from collections.abc import Container
 from dataclasses import dataclass, replace
 from math import hypot, radians, sin
 
-from physics.rectify.correction import Correction, Step, made
+from physics.rectify.correction import Correction, Step, correction, reshaped
 from sketch.geometry import nearest_on_boundary
 from sketch.page import Sketch
-from sketch.shapes import Circle, Point, Polygon, Solid, Spring, Wire
+from sketch.shapes import Circle, Point, Polygon, Shape, Solid, Spring, Wire
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ RULE = AttachmentRule()
 
 def attach(sketch: Sketch, skipped: Container[str] = ()) -> Step:
     """C4 on every spring and wire of the page but those skipped."""
-    after = sketch
+    shapes: dict[str, Shape] = {}
     corrections: list[Correction] = []
     why = "its ends are put on the boundary of what they are attached to"
     for part in sketch.components:
@@ -46,11 +46,10 @@ def attach(sketch: Sketch, skipped: Container[str] = ()) -> Step:
             new_start = start if holders[0] is None else _clipped(holders[0], start, end)
             new_end = end if holders[1] is None else _clipped(holders[1], end, start)
             if (new_start, new_end) != (start, end) and new_start != new_end:
-                shape = replace(part.shape, start=new_start, end=new_end)
-                step = made("C4", part.label, after, {part.label: shape}, why, why)
-                after = step.sketch
-                corrections += step.corrections
-    return Step(after, tuple(corrections))
+                shape = shapes[part.label] = replace(part.shape, start=new_start, end=new_end)
+                before: dict[str, Shape] = {part.label: part.shape}
+                corrections += correction("C4", part.label, before, {part.label: shape}, why, why)
+    return Step(reshaped(sketch, shapes), tuple(corrections))
 
 
 def _holder(sketch: Sketch, label: str | None) -> Solid | None:

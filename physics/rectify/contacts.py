@@ -20,7 +20,7 @@ from math import inf
 
 import numpy as np
 
-from physics.rectify.correction import Correction, Step, made, shift, taken_along
+from physics.rectify.correction import Correction, Step, carried, correction, reshaped, shapes_of, shift, taken_along
 from physics.rectify.separation import Outline, boxes_apart, outline_of, separation
 from sketch.page import Sketch
 from sketch.shapes import Circle, Point, Polygon, Solid, Spring, Wire
@@ -80,11 +80,8 @@ def resting(sketch: Sketch) -> dict[str, frozenset[str]]:
 def touch(sketch: Sketch, mass: Callable[[str], float], skipped: Container[str] = ()) -> Step:
     """C2 on the whole page. mass: of a solid by its label, kg; skipped: labels of what stays where it is."""
     outlines = outlines_of(sketch)
-    weight = {
-        part.label: inf if part.fixed or part.label in skipped else mass(part.label)
-        for part in sketch.components
-        if part.label in outlines
-    }
+    still = {part.label for part in sketch.components if part.fixed or part.label in skipped}
+    weight = dict.fromkeys(still, inf)  # the others are weighed where it matters
     pairs: dict[frozenset[str], _Pair] = {}
     shifts: dict[str, Point] = {}
     for _ in range(RULE.rounds):
@@ -92,17 +89,20 @@ def touch(sketch: Sketch, mass: Callable[[str], float], skipped: Container[str] 
         here = {label: outline.shifted(*shifts.get(label, (0.0, 0.0))) for label, outline in outlines.items()}
         known = len(pairs)
         for one, other, slip in _pairs(sketch, here if shifts else outlines):
-            if not weight[one] == weight[other] == inf:
+            if not {one, other} <= still:
                 pairs.setdefault(frozenset((one, other)), (one, other, slip))
         if shifts and len(pairs) == known:
             break
         shifts = {}
-        for cluster in _clusters(list(pairs.values()), weight):
+        for cluster in _clusters(list(pairs.values()), still):
             if any(abs(separation(outlines[one], outlines[other])[0]) > RULE.exact for one, other, _ in cluster):
+                for label in {label for pair in cluster for label in pair[:2]} - still:
+                    weight[label] = mass(label)
                 shifts |= _settled(cluster, outlines, weight)
         if not shifts:
             break
-    return _moved(sketch, shifts)
+    held = {label for pair in pairs for label in pair}
+    return _moved(sketch, shifts, held) if shifts else Step(sketch)
 
 
 def outlines_of(sketch: Sketch) -> dict[str, Outline]:
@@ -127,11 +127,17 @@ def _pairs(sketch: Sketch, outlines: dict[str, Outline]) -> list[_Pair]:
         if isinstance(part.shape, Spring | Wire) and None not in part.ends
     }
     labels = sorted(outlines, key=lambda label: (outlines[label].size, outlines[label].centre))
+    if len(labels) < 2:
+        return []
+    low, high = (
+        np.array([getattr(outlines[label], side) for label in labels]) for side in ("low", "high")
+    )
+    # No gap is less than that between the boxes around two outlines.
+    near = ((low[:, None] - high[None, :] <= RULE.most).all(axis=2)).astype(bool)
     found: list[_Pair] = []
-    for k, one in enumerate(labels):
-        for other in labels[k + 1 :]:
-            if (one in fixed and other in fixed) or frozenset((one, other)) in joined:
-                continue
+    for i, j in np.argwhere(np.triu(near & near.T, 1)).tolist():
+        one, other = labels[i], labels[j]
+        if not (one in fixed and other in fixed) and frozenset((one, other)) not in joined:
             slip = _slip(outlines[one], outlines[other])
             if slip is not None:
                 found.append((one, other, slip))
@@ -151,12 +157,12 @@ def _slip(one: Outline, other: Outline) -> float | None:
     return abs(gap) / most if abs(gap) <= most else None
 
 
-def _clusters(pairs: list[_Pair], weight: dict[str, float]) -> list[list[_Pair]]:
+def _clusters(pairs: list[_Pair], still: Container[str]) -> list[list[_Pair]]:
     """Pairs that have movable solids in common, directly or through others, belong together."""
     group: dict[str, int] = {}
     clusters: dict[int, list[_Pair]] = {}
     for k, pair in enumerate(pairs):
-        movable = [label for label in pair[:2] if weight[label] < inf]
+        movable = [label for label in pair[:2] if label not in still]
         met = sorted({group[label] for label in movable if label in group})
         clusters[k] = [one for name in met for one in clusters.pop(name)] + [pair]
         group = {label: k if name in met else name for label, name in group.items()} | dict.fromkeys(movable, k)
@@ -218,15 +224,18 @@ def _closed(
     return None, np.abs(gaps).tolist()
 
 
-def _moved(sketch: Sketch, shifts: dict[str, Point]) -> Step:
+def _moved(sketch: Sketch, shifts: dict[str, Point], held: Container[str]) -> Step:
     """The page with solids moved, one correction for each, and what hangs from them along with them."""
     corrections: list[Correction] = []
-    after = sketch
-    held = {label for label, others in resting(sketch).items() if others} if shifts else set()
+    shapes = shapes_of(sketch)
+    attached = {label for part in sketch.components for label in part.ends}
+    why = "it is moved into contact with what it was drawn to touch"
     for label in sorted(shifts):
-        shapes = taken_along(after, {label: shift(*shifts[label])}, held)
-        why = "it is moved into contact with what it was drawn to touch"
-        step = made("C2", label, after, shapes, why, f"it goes along with {label}")
-        after = step.sketch
-        corrections += step.corrections
-    return Step(after, tuple(corrections))
+        place = shift(*shifts[label])
+        if label in attached:
+            moves = taken_along(reshaped(sketch, shapes), {label: place}, held)
+        else:
+            moves = {label: carried(shapes[label], place)}
+        corrections += correction("C2", label, shapes, moves, why, f"it goes along with {label}")
+        shapes |= moves
+    return Step(reshaped(sketch, shapes) if corrections else sketch, tuple(corrections))

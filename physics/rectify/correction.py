@@ -147,7 +147,9 @@ def reshaped(sketch: Sketch, shapes: Mapping[str, Shape]) -> Sketch:
     )
 
 
-def taken_along(sketch: Sketch, places: Mapping[str, Place], held: Container[str]) -> dict[str, Shape]:
+def taken_along(
+    sketch: Sketch, places: Mapping[str, Place], held: Container[str]
+) -> dict[str, Shape]:
     """New shapes where solids are moved, each by its own motion: of themselves, of the ends of links that are
     attached to them, and of what hangs from them by a link of its own, which keeps its place below.
 
@@ -191,26 +193,24 @@ def hangs(sketch: Sketch, label: str) -> bool:
     return sum(label in part.ends for part in sketch.components) == 1
 
 
-def made(
-    rule: Rule, cause: str, sketch: Sketch, shapes: Mapping[str, Shape], why: str, follows: str
-) -> Step:
-    """The page with new shapes, as one correction. why: of the cause itself; follows: of all others."""
-    after = reshaped(sketch, shapes)
-    return Step(
-        after,
-        tuple(
-            Correction(
-                rule,
-                part.label,
-                f"{part.label}: {why if part.label == cause else follows}.",
-                part.shape,
-                shapes[part.label],
-                cause,
-            )
-            for part in sorted(
-                (part for part in sketch.components if part.label in shapes),
-                key=lambda part: (part.label != cause, part.label),
-            )
-            if shapes[part.label] != part.shape
-        ),
+def correction(
+    rule: Rule, cause: str, before: Mapping[str, Shape], after: Mapping[str, Shape], why: str, follows: str
+) -> tuple[Correction, ...]:
+    """What one use of a rule has changed, the cause itself first. why: of the cause; follows: of all others."""
+    return tuple(
+        Correction(
+            rule,
+            label,
+            f"{label}: {why if label == cause else follows}.",
+            before[label],
+            after[label],
+            cause,
+        )
+        for label in sorted(after, key=lambda label: (label != cause, label))
+        if before[label] != after[label]
     )
+
+
+def shapes_of(sketch: Sketch) -> dict[str, Shape]:
+    """Every component's shape, by label."""
+    return {part.label: part.shape for part in sketch.components}

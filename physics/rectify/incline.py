@@ -29,7 +29,17 @@ from math import atan2, cos, hypot, pi, radians, sin
 from physics.formula.meaning import GRAVITY, Meanings
 from physics.formula.names import constant_of, lookup
 from physics.rectify.contacts import resting
-from physics.rectify.correction import Correction, Place, Step, made, shift, taken_along, turn
+from physics.rectify.correction import (
+    Correction,
+    Place,
+    Step,
+    correction,
+    reshaped,
+    shapes_of,
+    shift,
+    taken_along,
+    turn,
+)
 from physics.rectify.separation import apart
 from sketch.geometry import signed_area
 from sketch.ink import FloatArray
@@ -129,9 +139,9 @@ def tilt(sketch: Sketch, meanings: Meanings, skipped: Container[str] = ()) -> St
         if angle is not None and RULE.flattest <= angle <= pi / 2 - RULE.flattest:
             why = "its incline is given the angle that the page says it has"
             follows = f"it keeps its place on {part.label}, whose incline is given its angle"
-            step = made("C3", part.label, after, _tilted(after, part.label, angle), why, follows)
-            after = step.sketch
-            corrections += step.corrections
+            shapes = _tilted(after, part.label, angle)
+            corrections += correction("C3", part.label, shapes_of(after), shapes, why, follows)
+            after = reshaped(after, shapes)
     return Step(after, tuple(corrections))
 
 

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from physics.formula.meaning import read
+from physics.formula.meaning import Meanings, read
 from physics.formula.names import mass_of
 from physics.rectify.angles import aim
 from physics.rectify.attachments import attach
@@ -29,6 +29,10 @@ from physics.rectify.correction import RULES, Correction, Key, Rectified, Rule
 from physics.rectify.incline import tilt
 from physics.rectify.straighten import straighten
 from sketch.page import Sketch
+
+
+NOTHING = Meanings((), ())
+"""What is said of most things."""
 
 
 def rectify(sketch: Sketch, without: Iterable[Key] = ()) -> Rectified:
@@ -46,9 +50,10 @@ def rectify(sketch: Sketch, without: Iterable[Key] = ()) -> Rectified:
         return frozenset(label for name, label in left_out if name == rule)
 
     meanings = read(sketch)
+    spoken = {said.component for said in meanings.said}
 
     def mass(label: str) -> float:
-        return mass_of(sketch, meanings, sketch.component(label))[0]
+        return mass_of(sketch, meanings if label in spoken else NOTHING, sketch.component(label))[0]
 
     straight = straighten(sketch, skipped("C1"))
     tilted = tilt(straight.sketch, meanings, skipped("C3"))

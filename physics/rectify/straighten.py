@@ -2,9 +2,11 @@
 parallel or nearly as long as one another become so, where that is what the hand meant.
 
 The new vertices are the nearest ones (least squares) that satisfy what was found. Level and upright edges make
-their vertices share a height or a column, so that they are exact; the others are solved for in what is
-left, by Newton's method on the constraints from the drawn vertices (each step the smallest change that
-satisfies the linearised constraints).
+their vertices share a height or a column, so that they are exact. Other sides that are parallel or at right
+angles to one another share a direction, which is an unknown like the vertices: a side of direction (c, s) from
+(x, y) to (u, v) satisfies c (v − y) = s (u − x), or its like for the direction across. These and equal lengths
+are solved by Newton's method, each step being the smallest change from the drawn vertices that satisfies them
+to first order.
 
 What a hand meant is told from the shape itself. Where its corners or its sides agree to rounding, nobody drew
 it by hand: it is turned on purpose, and left alone. Lengths count as equal only within the unsteadiness
@@ -21,15 +23,14 @@ from __future__ import annotations
 from collections.abc import Container
 from dataclasses import dataclass
 from itertools import pairwise
-from math import atan2, hypot, pi, radians
-from typing import Literal
+from math import atan2, cos, hypot, pi, radians, sin
 
 import numpy as np
 
-from physics.rectify.correction import Correction, Step, made
+from physics.rectify.correction import Correction, Step, correction, reshaped
 from sketch.ink import FloatArray
 from sketch.page import Sketch
-from sketch.shapes import Point, Polygon
+from sketch.shapes import Point, Polygon, Shape
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,17 +60,13 @@ class StraightRule:
     rounds: int = 4
     """Straightening one edge turns its neighbours, which may then be nearly level too."""
     steps: int = 30
-    """Newton's, of which six are enough for 1e-12 where the relations agree with one another."""
+    """Newton's, of which six are enough for 1e-12 of a side where the relations agree with one another."""
 
 
 RULE = StraightRule()
-Relation = tuple[Literal["right", "parallel", "equal"], int, int]
-"""A corner (twice), or two sides, by the number of the vertex at which each begins."""
-
-
 def straighten(sketch: Sketch, skipped: Container[str] = ()) -> Step:
     """C1 on every polygon of the page but those skipped."""
-    after = sketch
+    shapes: dict[str, Shape] = {}
     corrections: list[Correction] = []
     why = "its nearly level, upright, parallel, equal or right-angled sides are made so"
     for part in sketch.components:
@@ -77,42 +74,46 @@ def straighten(sketch: Sketch, skipped: Container[str] = ()) -> Step:
             drawn: list[Point] = [(x, y) for x, y in part.shape.vertices.tolist()]
             vertices = _straight(drawn)
             if vertices != drawn:
-                step = made("C1", part.label, after, {part.label: Polygon(_wound(vertices))}, why, why)
-                after = step.sketch
-                corrections += step.corrections
-    return Step(after, tuple(corrections))
+                shape = shapes[part.label] = Polygon(_wound(vertices))
+                before: dict[str, Shape] = {part.label: part.shape}
+                corrections += correction("C1", part.label, before, {part.label: shape}, why, why)
+    return Step(reshaped(sketch, shapes), tuple(corrections))
 
 
 def _straight(drawn: list[Point]) -> list[Point]:
-    """The polygon's vertices with all that is meant made so; the same list where nothing is to be done."""
-    if _turned_on_purpose(drawn):
-        return drawn
-    level: frozenset[int] = frozenset()
-    upright: frozenset[int] = frozenset()
+    """The polygon's vertices with all that is meant made so, until nothing more is found; the same list where
+    nothing is to be done, or where it has no end within reason."""
     result = drawn
     for _ in range(RULE.rounds):
-        found = _leaning(result)
-        if found[0] <= level and found[1] <= upright:
-            break
-        level, upright = level | found[0], upright | found[1]
-        level, upright, after = _levelled(drawn, level, upright)
+        after = _once(result)
         if after == result:
-            break
+            return result
+        if not _plausible(drawn, after):
+            return drawn
         result = after
-    related = _related(drawn, result, level, upright)
-    return result if related is None else related
+    return drawn
+
+
+def _once(drawn: list[Point]) -> list[Point]:
+    if _turned_on_purpose(drawn):
+        return drawn
+    level, upright = _leaning(drawn)
+    level, upright, result = _levelled(drawn, level, upright)
+    return _related(drawn, result, level, upright)
 
 
 def _turned_on_purpose(vertices: list[Point]) -> bool:
     """Whether all corners are right angles, or all sides as long as one another, or one corner of a triangle
     a right angle, to rounding."""
     sides = _sides(vertices)
-    longest = max(hypot(x, y) for x, y in sides)
-    right = [_off(("right", k, k), sides) <= RULE.exact for k in range(len(sides))]
-    if all(right) or (len(sides) == 3 and any(right)):
-        return True
     lengths = [hypot(x, y) for x, y in sides]
-    return longest - min(lengths) <= RULE.exact
+    if max(lengths) - min(lengths) <= RULE.exact:
+        return True
+    right = [
+        (pi / 2 - _between(sides[k - 1], sides[k])) * max(lengths[k - 1], lengths[k]) <= RULE.exact
+        for k in range(len(sides))
+    ]
+    return all(right) or (len(sides) == 3 and any(right))
 
 
 def _leaning(vertices: list[Point]) -> tuple[frozenset[int], frozenset[int]]:
@@ -183,118 +184,147 @@ def _shared(values: list[float], edges: frozenset[int]) -> list[float]:
 
 def _related(
     drawn: list[Point], vertices: list[Point], level: frozenset[int], upright: frozenset[int]
-) -> list[Point] | None:
-    """The vertices with right angles, parallels and equal lengths as well; None where there are none to make.
-    What cannot all be had is given up from the last kind on."""
+) -> list[Point]:
+    """The vertices with right angles, parallels and equal lengths as well, as far as they can be had."""
     sides = _sides(vertices)
-    straight = level | upright
-    found: list[Relation] = [
-        ("right", k, k)
-        for k in range(len(sides))
-        # Two sides that lie along the axes are at right angles already.
-        if not {k, (k - 1) % len(sides)} <= straight and _angle_off(("right", k, k), sides) <= RULE.right
-    ]
-    half = len(sides) // 2
-    if len(sides) % 2 == 0:
-        found += [
-            ("parallel", k, k + half)
-            for k in range(half)
-            if not {k, k + half} <= straight
-            and _angle_off(("parallel", k, k + half), sides) <= RULE.parallel
-        ]
-    moved = max(hypot(x - u, y - v) for (x, y), (u, v) in zip(drawn, vertices, strict=True))
-    shown = max([moved, *(_off(relation, sides) / 2 for relation in found)])
     lengths = [hypot(x, y) for x, y in sides]
-    equal: list[Relation] = []
+    directions, off = _directions(sides, level, upright)
+    shown = max(off, max(hypot(x - u, y - v) for (x, y), (u, v) in zip(drawn, vertices, strict=True)))
+    result = vertices
+    if off > RULE.exact:
+        result = _nearest(vertices, level, upright, directions, []) or vertices
+    equal: list[tuple[int, int]] = []
     for k in range(len(sides)):
         other = (k + 1) % len(sides)
         most = min(RULE.unsteady * shown, RULE.equal * max(lengths[k], lengths[other]))
-        if shown > RULE.exact and abs(lengths[k] - lengths[other]) <= most:
-            equal.append(("equal", k, other))
-    for relations in (found + equal, found):
-        if not relations or all(_off(relation, sides) <= RULE.exact for relation in relations):
+        if shown <= RULE.exact or abs(lengths[k] - lengths[other]) > most:
             continue
-        after = _nearest(drawn, vertices, relations, level, upright)
-        if after is not None and _plausible(drawn, after):
-            return after
-    return None
+        now = [hypot(x, y) for x, y in _sides(result)]
+        if abs(now[k] - now[other]) > RULE.exact:  # others may have made them so
+            after = _nearest(vertices, level, upright, directions, [*equal, (k, other)])
+            if after is not None and _plausible(drawn, after):
+                equal.append((k, other))
+                result = after
+    return result if _plausible(drawn, result) else vertices
+
+
+_Directions = list[tuple[int, bool] | None]
+"""Of each side that is neither level nor upright: which unknown direction it has, by number, and whether it
+lies across it; None where it has one of its own."""
+
+
+def _directions(
+    sides: list[Point], level: frozenset[int], upright: frozenset[int]
+) -> tuple[_Directions, float]:
+    """(which sides share directions; by how much they are off, page units)."""
+    count = len(sides)
+    straight = level | upright
+    group: list[tuple[int, bool]] = [(k, False) for k in range(count)]
+    meant = [(k - 1, k, True) for k in range(count)]
+    if count % 2 == 0:
+        meant += [(k, k + count // 2, False) for k in range(count // 2)]
+    off = 0.0
+    for one, other, across in meant:
+        one %= count
+        if one in straight or other in straight:
+            continue  # along an axis, as truly as can be
+        angle = _between(sides[one], sides[other])
+        angle, most = (pi / 2 - angle, RULE.right) if across else (angle, RULE.parallel)
+        if angle > most:
+            continue
+        (name, turned), (old, other_turned) = group[one], group[other]
+        flip = turned ^ other_turned ^ across
+        if name != old:
+            group = [(name, way ^ flip) if at == old else (at, way) for at, way in group]
+        elif flip:
+            continue  # these two are related otherwise already
+        off = max(off, angle * max(hypot(*sides[one]), hypot(*sides[other])) / 2)
+    names = [at for at, _ in group]
+    return [one if names.count(one[0]) > 1 else None for one in group], off
 
 
 def _nearest(
-    drawn: list[Point],
     start: list[Point],
-    relations: list[Relation],
     level: frozenset[int],
     upright: frozenset[int],
+    directions: _Directions,
+    equal: list[tuple[int, int]],
 ) -> list[Point] | None:
-    """The vertices nearest to those drawn that satisfy the relations, with what is level and upright kept; None
-    where there are none."""
-    count = len(drawn)
+    """The vertices nearest to `start` whose sides have these directions and equal lengths, with what is level
+    and upright kept; None where Newton's method finds none."""
+    count = len(start)
     columns, rows = _groups(count, upright), _groups(count, level)
-    unknowns = sorted({(0, name) for name in columns} | {(1, name) for name in rows})
-    index = {name: k for k, name in enumerate(unknowns)}
-    where = np.array([index[0, name] for name in columns] + [index[1, name] for name in rows])
-    # A coordinate that several vertices share weighs as much as all of them.
-    weight = np.sqrt(np.bincount(where))
-    home = np.array([x for x, _ in start] + [y for _, y in start])
-    base = np.zeros(len(unknowns))
-    base[where] = home  # where several vertices share a coordinate, `start` holds their mean
-    values = base.copy()
+    names: list[tuple[str, int]] = sorted(
+        {("x", name) for name in columns}
+        | {("y", name) for name in rows}
+        | {("angle", one[0]) for one in directions if one is not None}
+    )
+    index = {name: k for k, name in enumerate(names)}
+    at_x = [index["x", name] for name in columns]
+    at_y = [index["y", name] for name in rows]
+    home, weight = np.zeros(len(names)), np.zeros(len(names))
+    for (x, y), i, j in zip(start, at_x, at_y, strict=True):
+        home[i], home[j] = x, y
+        weight[i] += 1  # a coordinate that several vertices share weighs as much as all of them
+        weight[j] += 1
+    sides = _sides(start)
+    size = max(hypot(x, y) for x, y in sides)
+    for k, one in enumerate(directions):
+        if one is not None and not weight[index["angle", one[0]]]:
+            home[index["angle", one[0]]] = atan2(sides[k][1], sides[k][0]) - (pi / 2 if one[1] else 0.0)
+            weight[index["angle", one[0]]] = 1e-12 * size * size  # any direction is as good as another
+    ease = 1 / np.sqrt(weight)
+    values = home.copy()
     for _ in range(RULE.steps):
-        x, y = values[where[:count]], values[where[count:]]
-        off, slopes = _constraints(x, y, relations)
-        if np.abs(off).max() <= 1e-13:
-            break
-        folded = np.zeros((len(relations), len(unknowns)))
-        np.add.at(folded.T, where, slopes.T)
-        scaled = folded / weight
-        change = np.linalg.lstsq(scaled, folded @ (values - base) - off, rcond=1e-10)[0]
-        values = base + change / weight
-    else:
-        if np.abs(off).max() > 1e-12:
-            return None
-    x, y = values[where[:count]], values[where[count:]]
-    return list(zip(x.tolist(), y.tolist(), strict=True))
+        off, slopes = _conditions(values, at_x, at_y, index, directions, equal)
+        if np.abs(off).max() <= 1e-13 * size:
+            return [(float(values[i]), float(values[j])) for i, j in zip(at_x, at_y, strict=True)]
+        change = np.linalg.lstsq(slopes * ease, slopes @ (values - home) - off, rcond=1e-11)[0]
+        values = home + ease * change
+    return None
 
 
-def _constraints(x: FloatArray, y: FloatArray, relations: list[Relation]) -> tuple[FloatArray, FloatArray]:
-    """(values, (k,); slopes against x and then y of all vertices, (k, 2 n)), each without a unit."""
-    count = len(x)
-    dx, dy = np.roll(x, -1) - x, np.roll(y, -1) - y
-    scale = float(np.hypot(dx, dy).max()) ** 2
-    off, slopes = np.zeros(len(relations)), np.zeros((len(relations), 2 * count))
-    for row, (kind, i, j) in enumerate(relations):
-        one, other = ((i - 1) % count, i) if kind == "right" else (i, j)
-        (ax, ay), (bx, by) = (dx[one], dy[one]), (dx[other], dy[other])
-        if kind == "right":
-            value, along = ax * bx + ay * by, (bx, by, ax, ay)
-        elif kind == "parallel":
-            value, along = ax * by - ay * bx, (by, -bx, -ay, ax)
-        else:
-            value, along = 0.5 * (ax * ax + ay * ay - bx * bx - by * by), (ax, ay, -bx, -by)
-        off[row] = value / scale
-        for side, (gx, gy) in ((one, along[:2]), (other, along[2:])):
-            for vertex, sign in ((side, -1.0), ((side + 1) % count, 1.0)):
-                slopes[row, vertex] += sign * gx / scale
-                slopes[row, count + vertex] += sign * gy / scale
-    return off, slopes
+def _conditions(
+    values: FloatArray,
+    at_x: list[int],
+    at_y: list[int],
+    index: dict[tuple[str, int], int],
+    directions: _Directions,
+    equal: list[tuple[int, int]],
+) -> tuple[FloatArray, FloatArray]:
+    """(what must be zero, page units; its slopes against all unknowns)."""
+    count = len(at_x)
+    dx = [values[at_x[(k + 1) % count]] - values[at_x[k]] for k in range(count)]
+    dy = [values[at_y[(k + 1) % count]] - values[at_y[k]] for k in range(count)]
+    off: list[float] = []
+    slopes: list[FloatArray] = []
+
+    def condition(value: float, along: list[tuple[int, float, float]]) -> FloatArray:
+        """along: (side, slope against its dx, against its dy)."""
+        row = np.zeros(len(values))
+        for k, gx, gy in along:
+            for vertex, sign in ((k, -1.0), ((k + 1) % count, 1.0)):
+                row[at_x[vertex]] += sign * gx
+                row[at_y[vertex]] += sign * gy
+        off.append(value)
+        slopes.append(row)
+        return row
+
+    for k, one in enumerate(directions):
+        if one is not None:
+            name = index["angle", one[0]]
+            angle = values[name] + (pi / 2 if one[1] else 0.0)
+            c, s = cos(angle), sin(angle)
+            condition(c * dy[k] - s * dx[k], [(k, -s, c)])[name] -= s * dy[k] + c * dx[k]
+    for one, other in equal:
+        a, b = hypot(dx[one], dy[one]), hypot(dx[other], dy[other])
+        condition(a - b, [(one, dx[one] / a, dy[one] / a), (other, -dx[other] / b, -dy[other] / b)])
+    return np.array(off), np.array(slopes)
 
 
-def _angle_off(relation: Relation, sides: list[Point]) -> float:
-    """By how much a relation of directions fails, radians."""
-    kind, i, j = relation
-    (ax, ay), (bx, by) = sides[i - 1] if kind == "right" else sides[i], sides[j]
-    cross, dot = abs(ax * by - ay * bx), abs(ax * bx + ay * by)
-    return atan2(dot, cross) if kind == "right" else atan2(cross, dot)
-
-
-def _off(relation: Relation, sides: list[Point]) -> float:
-    """By how much a relation fails, page units at the end of the longer side."""
-    kind, i, j = relation
-    one, other = sides[i - 1] if kind == "right" else sides[i], sides[j]
-    if kind == "equal":
-        return abs(hypot(*one) - hypot(*other))
-    return _angle_off(relation, sides) * max(hypot(*one), hypot(*other))
+def _between(one: Point, other: Point) -> float:
+    """The angle between two sides, from 0 (parallel) to π/2."""
+    return atan2(abs(one[0] * other[1] - one[1] * other[0]), abs(one[0] * other[0] + one[1] * other[1]))
 
 
 def _sides(vertices: list[Point]) -> list[Point]:
