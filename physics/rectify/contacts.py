@@ -5,7 +5,7 @@ moves. In each cluster of solids that are meant to touch one another, the displa
 minimise Σ m² |d|² under the condition that every pair touches, so that the lighter moves to the heavier, no
 pair undoes another, and nothing moves farther than it must. The gaps are not linear in d where a
 circle or a corner rolls along another; Newton's method takes the smallest d that closes them to first order,
-from where the solids were drawn, until all are closed to 1e-10. A cluster that nothing fixed is in stays where
+from where the solids were drawn, until all are closed to 1e-10 and d has settled. A cluster that nothing fixed is in stays where
 its heaviest solid is.
 
 Where a cluster cannot have all its contacts (a ball too large for the gap between two walls), the one that is
@@ -37,7 +37,7 @@ class ContactRule:
     """Share of the size."""
     most: float = 25.0
     """Page units, for either: two large blocks this far apart were drawn apart."""
-    beside: float = 0.15
+    beside: float = 0.2
     """Share of the size, for a gap sideways: nothing must be held up there, so that a visible one is meant."""
     most_beside: float = 10.0
     """Page units, for a gap sideways."""
@@ -47,13 +47,13 @@ class ContactRule:
     exact: float = 1e-9
     """Page units: already in contact (rounding is a ten-thousandth of it)."""
     closed: float = 1e-10
-    """Page units: what is being moved comes this near."""
+    """Page units: what is being moved comes this near, and is moved until it moves less than that."""
     heavier: float = 1.05
     """By which one solid must be heavier than another to be surely the heavier of two drawn ones."""
     lightest: float = 1e-3
     """Share of the heaviest mass in a cluster below which all weigh alike."""
-    steps: int = 40
-    """Newton's; straight faces take two, circles about six."""
+    steps: int = 60
+    """Newton's; straight faces take two, circles about ten."""
     rounds: int = 10
     """Of adding contacts that come about only when others are closed."""
 
@@ -199,6 +199,7 @@ def _closed(
     ease = np.repeat([1 / max(weight[label] / greatest, RULE.lightest) for label in movable], 2)
     moves = np.zeros(2 * len(movable))
     here = dict(outlines)
+    settled = not movable
     for _ in range(RULE.steps):
         gaps = np.zeros(len(pairs))
         slopes = np.zeros((len(pairs), len(moves)))
@@ -207,7 +208,7 @@ def _closed(
             for label, sign in ((one, -1.0), (other, 1.0)):
                 if label in column:
                     slopes[row, column[label] : column[label] + 2] = np.multiply(sign, direction)
-        if np.abs(gaps).max() <= RULE.closed:
+        if settled and np.abs(gaps).max() <= RULE.closed:
             return {
                 label: (float(moves[k]), float(moves[k + 1]))
                 for label, k in column.items()
@@ -216,6 +217,7 @@ def _closed(
         wanted = slopes @ moves - gaps
         scaled = np.linalg.lstsq(slopes * ease, wanted, rcond=1e-9)[0]
         left = np.abs(slopes @ (ease * scaled) - wanted)
+        settled = np.abs(ease * scaled - moves).max(initial=0.0) <= RULE.closed
         moves = ease * scaled
         if left.max() > 1e-6:
             return None, left.tolist()

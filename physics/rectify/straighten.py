@@ -59,8 +59,12 @@ class StraightRule:
     """Share of the shape's extent that a vertex may move: 12 degrees of lean on its longest side."""
     rounds: int = 4
     """Straightening one edge turns its neighbours, which may then be nearly level too."""
-    steps: int = 30
-    """Newton's, of which six are enough for 1e-12 of a side where the relations agree with one another."""
+    steps: int = 40
+    """Newton's, of which eight are enough where the relations agree with one another."""
+    solved: float = 1e-13
+    """Share of the longest side by which a relation that was solved for may fail."""
+    settled: float = 1e-12
+    """The same, by which the last step may have moved a vertex (or radians, a direction)."""
 
 
 RULE = StraightRule()
@@ -194,11 +198,13 @@ def _related(
     if off > RULE.exact:
         result = _nearest(vertices, level, upright, directions, []) or vertices
     equal: list[tuple[int, int]] = []
+    found: list[tuple[float, int, int]] = []
     for k in range(len(sides)):
         other = (k + 1) % len(sides)
-        most = min(RULE.unsteady * shown, RULE.equal * max(lengths[k], lengths[other]))
-        if shown <= RULE.exact or abs(lengths[k] - lengths[other]) > most:
-            continue
+        by, longer = abs(lengths[k] - lengths[other]), max(lengths[k], lengths[other])
+        if shown > RULE.exact and by <= min(RULE.unsteady * shown, RULE.equal * longer):
+            found.append((by, k, other))
+    for _, k, other in sorted(found):  # the truest first
         now = [hypot(x, y) for x, y in _sides(result)]
         if abs(now[k] - now[other]) > RULE.exact:  # others may have made them so
             after = _nearest(vertices, level, upright, directions, [*equal, (k, other)])
@@ -223,15 +229,17 @@ def _directions(
     meant = [(k - 1, k, True) for k in range(count)]
     if count % 2 == 0:
         meant += [(k, k + count // 2, False) for k in range(count // 2)]
-    off = 0.0
+    found: list[tuple[float, int, int, bool]] = []
     for one, other, across in meant:
         one %= count
         if one in straight or other in straight:
             continue  # along an axis, as truly as can be
         angle = _between(sides[one], sides[other])
         angle, most = (pi / 2 - angle, RULE.right) if across else (angle, RULE.parallel)
-        if angle > most:
-            continue
+        if angle <= most:
+            found.append((angle, one, other, across))
+    off = 0.0
+    for angle, one, other, across in sorted(found):  # the truest first
         (name, turned), (old, other_turned) = group[one], group[other]
         flip = turned ^ other_turned ^ across
         if name != old:
@@ -275,12 +283,15 @@ def _nearest(
             weight[index["angle", one[0]]] = 1e-12 * size * size  # any direction is as good as another
     ease = 1 / np.sqrt(weight)
     values = home.copy()
+    settled = False
     for _ in range(RULE.steps):
         off, slopes = _conditions(values, at_x, at_y, index, directions, equal)
-        if np.abs(off).max() <= 1e-13 * size:
+        if settled and np.abs(off).max() <= RULE.solved * size:
             return [(float(values[i]), float(values[j])) for i, j in zip(at_x, at_y, strict=True)]
         change = np.linalg.lstsq(slopes * ease, slopes @ (values - home) - off, rcond=1e-11)[0]
-        values = home + ease * change
+        after = home + ease * change
+        settled = bool(np.abs(after - values).max() <= RULE.settled * size)
+        values = after
     return None
 
 
