@@ -13,12 +13,11 @@ from physics.formula.meaning import GRAVITY, Meanings, read
 from physics.formula.names import constant_of, lookup, mass_of
 from physics.infer import act
 from physics.parts.courses import courses_of
-from physics.parts.given import Page, to_metres
+from physics.parts.given import Page, by_component, to_metres
 from physics.parts.links import links_of
-from physics.parts.solids import body_of, centre_of, solids_of
+from physics.parts.solids import Figure, body_of, solids_of
 from physics.scene import Scene
-from sketch.page import Component, Sketch
-from sketch.shapes import Circle, Polygon
+from sketch.page import Sketch
 
 __all__ = ["Built", "build", "to_metres"]
 
@@ -43,8 +42,13 @@ def build(sketch: Sketch) -> Built:
     g = _gravity(sketch, meanings, notices)
     solids = solids_of(sketch, notices)
     page = _page(sketch, meanings, solids, g, notices)
-    courses = [course for part in solids for course in courses_of(page, part)]
-    bodies = tuple(body_of(page, part, courses) for part in solids)
+    courses = [
+        course
+        for figure in solids
+        if figure.part.label in page.own
+        for course in courses_of(page, figure.part)
+    ]
+    bodies = tuple(body_of(page, figure, courses) for figure in solids)
     springs, wires = links_of(page, {body.label: body for body in bodies})
     acting = act(page, bodies)
     scene = Scene(
@@ -66,17 +70,13 @@ def _gravity(sketch: Sketch, meanings: Meanings, notices: list[str]) -> float:
     return value
 
 
-def _page(
-    sketch: Sketch, meanings: Meanings, solids: Sequence[Component], g: float, notices: list[str]
-) -> Page:
-    spoken = frozenset(said.component for said in meanings.said)
+def _page(sketch: Sketch, meanings: Meanings, solids: Sequence[Figure], g: float, notices: list[str]) -> Page:
+    own = by_component(meanings)
     masses: dict[str, float] = {}
     starts: dict[str, tuple[float, float]] = {}
-    for part in solids:
-        assert isinstance(part.shape, Circle | Polygon)
-        masses[part.label], notice = mass_of(
-            sketch, meanings if part.label in spoken else NOTHING, part
-        )
+    for figure in solids:
+        part = figure.part
+        masses[part.label], notice = mass_of(sketch, meanings if part.label in own else NOTHING, part)
         notices += [] if notice is None else [notice]
-        starts[part.label] = centre_of(part.shape)
-    return Page(sketch, meanings, masses, starts, g, notices, spoken)
+        starts[part.label] = to_metres(figure.centre)
+    return Page(sketch, meanings, masses, starts, g, notices, own)

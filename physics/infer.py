@@ -287,9 +287,7 @@ def _with_normal(page: Page, said: Said, label: str, normal: float) -> Program |
     return page.from_start(made, label)
 
 
-def _rubbing(
-    body: Body, said: Said, bearing: Bearing, size: Program, skin: float, held: bool
-) -> Force:
+def _rubbing(body: Body, said: Said, bearing: Bearing, size: Program, skin: float, held: bool) -> Force:
     """Friction against a ball's motion along the contact, for as long as it is over the edge and near it."""
     nx, ny = bearing.normal
     tx, ty = ny, -nx
@@ -311,9 +309,7 @@ def _rubbing(
             _linear(-nx, "x", -ny, "y", reach),
         ):
             code += [*gate, ("sign", 0.0), ("push", 0.0), ("max", 0.0), ("multiply", 0.0)]
-    x, y = (
-        replace(size, code=(*code, ("push", -along), ("multiply", 0.0))) for along in (tx, ty)
-    )
+    x, y = (replace(size, code=(*code, ("push", -along), ("multiply", 0.0))) for along in (tx, ty))
     return Force(said.name, body.label, x, y)
 
 

@@ -26,7 +26,7 @@ def workshop(seed: int) -> Sketch:
         half = float(rng.uniform(45, 60)) - 6 * k
         parts.append(Component(rectangle(100 - half, top, 100 + half, bottom), label=f"S{k}"))
         bottom = top
-    x = 220.0
+    x, last = 220.0, 0.0
     for k in range(3):
         radius = float(rng.uniform(18, 30))
         if k:
@@ -63,7 +63,10 @@ def workshop(seed: int) -> Sketch:
     parts.append(Component(Circle((foot[0], foot[1] + 75), 15.0), label="B"))
 
     tilt = float(rng.uniform(0.6, 0.9))
-    left, right = (1180 - 100 * cos(tilt), 240 - 100 * sin(tilt)), (1260 + 100 * cos(tilt), 240 - 100 * sin(tilt))
+    left, right = (
+        (1180 - 100 * cos(tilt), 240 - 100 * sin(tilt)),
+        (1260 + 100 * cos(tilt), 240 - 100 * sin(tilt)),
+    )
     parts += [
         Component(rectangle(left[0] - 30, left[1] - 40, left[0] + 30, left[1]), label="X", fixed=True),
         Component(rectangle(right[0] - 30, right[1] - 40, right[0] + 30, right[1]), label="Y", fixed=True),
@@ -155,7 +158,9 @@ def angles_off(sketch: Sketch) -> dict[str, float]:
         (x1, y1), (x2, y2) = ends(shape)
         level, rise = abs(x2 - x1), abs(y2 - y1)
         top, bottom = sorted(ends(shape), key=lambda end: end[1])
-        from_top = hypot(*np.subtract(association.anchor, top)) < hypot(*np.subtract(association.anchor, bottom))
+        from_top = hypot(*np.subtract(association.anchor, top)) < hypot(
+            *np.subtract(association.anchor, bottom)
+        )
         found[association.component] = abs((atan2(level, rise) if from_top else atan2(rise, level)) - wanted)
     return found
 
@@ -169,5 +174,7 @@ def _foot_angle(triangle: Polygon) -> float:
         angles.append(abs(atan2(one[0] * other[1] - one[1] * other[0], one @ other)))
     corner = int(np.argmin(np.abs(np.array(angles) - pi / 2)))
     steep = [abs(vertices[k][1] - vertices[corner][1]) for k in range(3)]
-    (foot,) = (k for k in range(3) if k != corner and steep[k] == min(steep[j] for j in range(3) if j != corner))
+    (foot,) = (
+        k for k in range(3) if k != corner and steep[k] == min(steep[j] for j in range(3) if j != corner)
+    )
     return angles[foot]

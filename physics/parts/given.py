@@ -21,11 +21,19 @@ def to_metres(point: Point) -> Vector:
     return point[0] / PER_METRE, -point[1] / PER_METRE
 
 
+def by_component(meanings: Meanings) -> dict[str | None, Meanings]:
+    """What is said of each component, in the same order; most have nothing, and are not in it."""
+    found: dict[str | None, list[Said]] = {}
+    for said in meanings.said:
+        found.setdefault(said.component, []).append(said)
+    return {label: Meanings(tuple(own), ()) for label, own in found.items()}
+
+
 @dataclass(frozen=True, slots=True)
 class Page:
     """A page that is being turned into a scene. masses: kg, and starts: the centre as drawn, m, of every
-    solid that moves or is in the way; g: m/s²; notices: grow as things are found that cannot be; spoken: the
-    labels of components of which something is said."""
+    solid that moves or is in the way; g: m/s²; notices: grow as things are found that cannot be; own: what is
+    said of each component of which anything is."""
 
     sketch: Sketch
     meanings: Meanings
@@ -33,7 +41,7 @@ class Page:
     starts: Mapping[str, Vector]
     g: float
     notices: list[str]
-    spoken: frozenset[str | None]
+    own: Mapping[str | None, Meanings]
 
     def names(self, label: str) -> Lookup:
         """What names stand for in a component's formulas."""
@@ -41,7 +49,8 @@ class Page:
 
     def said(self, part: Component, role: Role) -> Said | None:
         """The newest that is said of a component in this role."""
-        return self.meanings.of(part.label, role, part.kind) if part.label in self.spoken else None
+        own = self.own.get(part.label)
+        return None if own is None else own.of(part.label, role, part.kind)
 
     def constant(self, part: Component, role: Role, low: float, high: float, must: str) -> float | None:
         """A constant that the page gives a component, None when it gives none that can be."""

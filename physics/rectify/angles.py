@@ -26,7 +26,7 @@ from math import atan2, cos, hypot, pi, sin
 
 from physics.formula.meaning import GRAVITY, Meanings
 from physics.formula.names import constant_of, lookup
-from physics.rectify.contacts import resting
+from physics.rectify.contacts import Touching
 from physics.rectify.correction import Correction, Step, hangs, reshaped, shift, taken_along, turn
 from sketch.page import Component, Sketch
 from sketch.shapes import Circle, Point, Polygon, Shape, Solid, Spring, Wire
@@ -56,9 +56,7 @@ class Said:
 
     def direction(self, dx: float, dy: float) -> Point:
         """The unit direction that has this angle, nearest in sense to (dx, dy)."""
-        level, rise = (
-            (sin(self.angle), cos(self.angle)) if self.steep else (cos(self.angle), sin(self.angle))
-        )
+        level, rise = (sin(self.angle), cos(self.angle)) if self.steep else (cos(self.angle), sin(self.angle))
         return (level if dx >= 0 else -level), (rise if dy >= 0 else -rise)
 
 
@@ -75,7 +73,7 @@ def said_of(sketch: Sketch, meanings: Meanings, part: Component) -> Said | None:
     return Said(angle, hypot(x - top[0], y - top[1]) < hypot(x - bottom[0], y - bottom[1]))
 
 
-def aim(sketch: Sketch, meanings: Meanings, skipped: Container[str] = ()) -> Step:
+def aim(sketch: Sketch, meanings: Meanings, touching: Touching, skipped: Container[str] = ()) -> Step:
     """C5 on every spring and wire that an angle is said of, but those skipped."""
     spoken = {said.component for said in meanings.said}
     wanted: dict[str, Said] = {}
@@ -86,14 +84,12 @@ def aim(sketch: Sketch, meanings: Meanings, skipped: Container[str] = ()) -> Ste
                 wanted[part.label] = said
     after = sketch
     causes: dict[str, str] = {}
-    held: frozenset[str] | None = None
     for _ in range(RULE.rounds):
         before = after
         for label, said in sorted(wanted.items()):
             if abs(_off(after, label, said)) <= RULE.exact:
                 continue
-            if held is None:
-                held = frozenset(one for one, others in resting(sketch).items() if others)
+            held = frozenset(one for one, others in touching().items() if others)
             shapes = _aimed(after, label, said, held)
             after = reshaped(after, shapes)
             causes |= dict.fromkeys(shapes, label) | {label: label}

@@ -14,13 +14,22 @@ least plausible is given up, and then the next. Page units, y down.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
 
 import numpy as np
 
-from physics.rectify.correction import Correction, Step, carried, correction, reshaped, shapes_of, shift, taken_along
+from physics.rectify.correction import (
+    Correction,
+    Step,
+    carried,
+    correction,
+    reshaped,
+    shapes_of,
+    shift,
+    taken_along,
+)
 from physics.rectify.separation import Outline, boxes_apart, outline_of, separation
 from sketch.page import Sketch
 from sketch.shapes import Circle, Point, Polygon, Solid, Spring, Wire
@@ -61,6 +70,10 @@ class ContactRule:
 RULE = ContactRule()
 
 
+Touching = Callable[[], Mapping[str, frozenset[str]]]
+"""What each solid of a page is meant to touch, worked out when it is first asked for."""
+
+
 def meant_to_touch(one: Solid, other: Solid) -> bool:
     """Whether a gap or an overlap is small enough to be a slip of the pen."""
     return _slip(outline_of(one), outline_of(other)) is not None
@@ -95,7 +108,9 @@ def touch(sketch: Sketch, mass: Callable[[str], float], skipped: Container[str] 
             break
         shifts = {}
         for cluster in _clusters(list(pairs.values()), still):
-            if any(abs(separation(outlines[one], outlines[other])[0]) > RULE.exact for one, other, _ in cluster):
+            if any(
+                abs(separation(outlines[one], outlines[other])[0]) > RULE.exact for one, other, _ in cluster
+            ):
                 for label in {label for pair in cluster for label in pair[:2]} - still:
                     weight[label] = mass(label)
                 shifts |= _settled(cluster, outlines, weight)
@@ -129,9 +144,7 @@ def _pairs(sketch: Sketch, outlines: dict[str, Outline]) -> list[_Pair]:
     labels = sorted(outlines, key=lambda label: (outlines[label].size, outlines[label].centre))
     if len(labels) < 2:
         return []
-    low, high = (
-        np.array([getattr(outlines[label], side) for label in labels]) for side in ("low", "high")
-    )
+    low, high = (np.array([getattr(outlines[label], side) for label in labels]) for side in ("low", "high"))
     # No gap is less than that between the boxes around two outlines.
     near = ((low[:, None] - high[None, :] <= RULE.most).all(axis=2)).astype(bool)
     found: list[_Pair] = []
@@ -165,13 +178,13 @@ def _clusters(pairs: list[_Pair], still: Container[str]) -> list[list[_Pair]]:
         movable = [label for label in pair[:2] if label not in still]
         met = sorted({group[label] for label in movable if label in group})
         clusters[k] = [one for name in met for one in clusters.pop(name)] + [pair]
-        group = {label: k if name in met else name for label, name in group.items()} | dict.fromkeys(movable, k)
+        group = {label: k if name in met else name for label, name in group.items()} | dict.fromkeys(
+            movable, k
+        )
     return list(clusters.values())
 
 
-def _settled(
-    pairs: list[_Pair], outlines: dict[str, Outline], weight: dict[str, float]
-) -> dict[str, Point]:
+def _settled(pairs: list[_Pair], outlines: dict[str, Outline], weight: dict[str, float]) -> dict[str, Point]:
     """How far each solid of a cluster must be moved."""
     kept = list(pairs)
     labels = list(dict.fromkeys(label for pair in pairs for label in pair[:2]))
@@ -200,8 +213,8 @@ def _closed(
     moves = np.zeros(2 * len(movable))
     here = dict(outlines)
     settled = not movable
+    gaps = np.zeros(len(pairs))
     for _ in range(RULE.steps):
-        gaps = np.zeros(len(pairs))
         slopes = np.zeros((len(pairs), len(moves)))
         for row, (one, other, _) in enumerate(pairs):
             gaps[row], direction = separation(here[one], here[other])

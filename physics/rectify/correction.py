@@ -147,9 +147,7 @@ def reshaped(sketch: Sketch, shapes: Mapping[str, Shape]) -> Sketch:
     )
 
 
-def taken_along(
-    sketch: Sketch, places: Mapping[str, Place], held: Container[str]
-) -> dict[str, Shape]:
+def taken_along(sketch: Sketch, places: Mapping[str, Place], held: Container[str]) -> dict[str, Shape]:
     """New shapes where solids are moved, each by its own motion: of themselves, of the ends of links that are
     attached to them, and of what hangs from them by a link of its own, which keeps its place below.
 

@@ -21,14 +21,14 @@ Page units, y down; the angle is that at the kept vertex, the foot, whichever wa
 
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Container, Mapping
 from dataclasses import dataclass
 from itertools import combinations
 from math import atan2, cos, hypot, pi, radians, sin
 
 from physics.formula.meaning import GRAVITY, Meanings
 from physics.formula.names import constant_of, lookup
-from physics.rectify.contacts import resting
+from physics.rectify.contacts import Touching
 from physics.rectify.correction import (
     Correction,
     Place,
@@ -124,7 +124,7 @@ def raised(foot: Point, corner: Point, top: Point, angle: float) -> Point:
     return foot[0] + distance * vx, foot[1] + distance * vy
 
 
-def tilt(sketch: Sketch, meanings: Meanings, skipped: Container[str] = ()) -> Step:
+def tilt(sketch: Sketch, meanings: Meanings, touching: Touching, skipped: Container[str] = ()) -> Step:
     """C3 on every right-angled triangle that an angle is said of, but those skipped."""
     after = sketch
     corrections: list[Correction] = []
@@ -139,13 +139,13 @@ def tilt(sketch: Sketch, meanings: Meanings, skipped: Container[str] = ()) -> St
         if angle is not None and RULE.flattest <= angle <= pi / 2 - RULE.flattest:
             why = "its incline is given the angle that the page says it has"
             follows = f"it keeps its place on {part.label}, whose incline is given its angle"
-            shapes = _tilted(after, part.label, angle)
+            shapes = _tilted(after, part.label, angle, touching)
             corrections += correction("C3", part.label, shapes_of(after), shapes, why, follows)
             after = reshaped(after, shapes)
     return Step(after, tuple(corrections))
 
 
-def _tilted(sketch: Sketch, label: str, angle: float) -> dict[str, Shape]:
+def _tilted(sketch: Sketch, label: str, angle: float, touching: Touching) -> dict[str, Shape]:
     """New shapes of the incline and of all that goes with it; none where its angle is right already."""
     drawn = sketch.component(label).shape
     assert isinstance(drawn, Polygon)
@@ -162,14 +162,15 @@ def _tilted(sketch: Sketch, label: str, angle: float) -> dict[str, Shape]:
         return {} if shape is drawn else {label: shape}
     vertices = shape.vertices.copy()
     vertices[found.top] = new
-    touching = resting(sketch)
-    places: dict[str, Place] = dict.fromkeys(_riders(sketch, label, shape, foot, top, touching), turn(foot, by))
+    places: dict[str, Place] = dict.fromkeys(
+        _riders(sketch, label, shape, foot, top, touching()), turn(foot, by)
+    )
     for part in sketch.components:
         if part.fixed and isinstance(part.shape, Circle):
             x, y = part.shape.centre
             if abs(hypot(x - top[0], y - top[1]) - part.shape.radius) <= RULE.top:
                 places[part.label] = shift(new[0] - top[0], new[1] - top[1])
-    held = {one for one, others in touching.items() if others}
+    held = {one for one, others in touching().items() if others}
     # The two sides that meet in the corner span the plane; the top alone moves.
     shapes = taken_along(sketch, places | {label: _affine(foot, corner, top, new)}, held)
     return shapes | {label: Polygon(vertices)}
@@ -181,7 +182,7 @@ def _riders(
     shape: Polygon,
     foot: Point,
     top: Point,
-    touching: dict[str, frozenset[str]],
+    touching: Mapping[str, frozenset[str]],
 ) -> list[str]:
     """Movable solids that rest on the long side, what rests on those, and so on."""
     slant = hypot(top[0] - foot[0], top[1] - foot[1])

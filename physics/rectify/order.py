@@ -18,14 +18,16 @@ is wrong there on purpose. What only followed is undone along with what it follo
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from functools import cache
 
 from physics.formula.meaning import Meanings, read
 from physics.formula.names import mass_of
 from physics.rectify.angles import aim
 from physics.rectify.attachments import attach
-from physics.rectify.contacts import touch
+from physics.rectify.contacts import resting, touch
 from physics.rectify.correction import RULES, Correction, Key, Rectified, Rule
+from physics.rectify.flush import lay
 from physics.rectify.incline import tilt
 from physics.rectify.straighten import straighten
 from sketch.page import Sketch
@@ -56,11 +58,17 @@ def rectify(sketch: Sketch, without: Iterable[Key] = ()) -> Rectified:
         return mass_of(sketch, meanings if label in spoken else NOTHING, sketch.component(label))[0]
 
     straight = straighten(sketch, skipped("C1"))
-    tilted = tilt(straight.sketch, meanings, skipped("C3"))
-    touching = touch(tilted.sketch, mass, skipped("C2"))
-    attached = attach(touching.sketch, skipped("C4"))
-    aimed = aim(attached.sketch, meanings, skipped("C5"))
-    steps = (straight, tilted, touching, attached, aimed)
+
+    @cache
+    def touching() -> Mapping[str, frozenset[str]]:
+        return resting(straight.sketch)
+
+    tilted = tilt(straight.sketch, meanings, touching, skipped("C3"))
+    laid = lay(tilted.sketch, touching, skipped("C2"))
+    moved = touch(laid.sketch, mass, skipped("C2"))
+    attached = attach(moved.sketch, skipped("C4"))
+    aimed = aim(attached.sketch, meanings, touching, skipped("C5"))
+    steps = (straight, tilted, laid, moved, attached, aimed)
     corrections: tuple[Correction, ...] = tuple(one for step in steps for one in step.corrections)
     return Rectified(aimed.sketch, corrections, sketch, left_out)
 

@@ -108,33 +108,43 @@ def _block_to_disc(block: Outline, disc: Outline) -> tuple[float, Point]:
         height = nx * (cx - x) + ny * (cy - y)
         if height > best:
             best, face = height, k
-    nx, ny = block.normals[face]
-    if best > FLUSH:
+    if best > FLUSH and not _over(block, face, disc.centre):
         foot_x, foot_y = min(
             (_foot(one, other, disc.centre) for one, other in _sides(corners)),
             key=lambda foot: hypot(cx - foot[0], cy - foot[1]),
         )
         x, y = cx - foot_x, cy - foot_y
         distance = hypot(x, y)
-        # Over the middle of a face the two agree, up to rounding; the face's normal has none in it.
-        if distance > best * (1 + 1e-9) + FLUSH:
-            return distance - disc.radius, (x / distance, y / distance)
-    return best - disc.radius, (nx, ny)
+        return distance - disc.radius, (x / distance, y / distance)
+    return best - disc.radius, block.normals[face]
 
 
 def _blocks(one: Outline, other: Outline) -> tuple[float, Point]:
-    best, direction = -1e300, (0.0, -1.0)
+    best, direction, over = -1e300, (0.0, -1.0), False
     for block, seen, sign in ((one, other, 1.0), (other, one, -1.0)):
-        for (x, y), (nx, ny) in zip(block.corners, block.normals, strict=True):
-            gap = min([nx * px + ny * py for px, py in seen.corners]) - (nx * x + ny * y)
-            if gap > best:
-                best, direction = gap, (sign * nx, sign * ny)
-    if best > FLUSH:
+        for k, ((x, y), (nx, ny)) in enumerate(zip(block.corners, block.normals, strict=True)):
+            heights = [nx * px + ny * py for px, py in seen.corners]
+            lowest = min(heights)
+            gap = lowest - (nx * x + ny * y)
+            # Of two faces that face each other, the one that the other's corner is over tells more.
+            if gap > best or (gap > FLUSH and not over and gap >= best * (1 - 1e-12)):
+                best, direction = max(gap, best), (sign * nx, sign * ny)
+                over = gap > FLUSH and _over(block, k, seen.corners[heights.index(lowest)])
+    if best > FLUSH and not over:
         x, y = _nearest(one, other)
         distance = hypot(x, y)
         if distance > best * (1 + 1e-9) + FLUSH:
             return distance, (x / distance, y / distance)
     return best, direction
+
+
+def _over(block: Outline, face: int, point: Point) -> bool:
+    """Whether a point outside a face lies straight above it: then its distance is that to the face, without
+    the rounding of a quotient."""
+    (x, y), (nx, ny) = block.corners[face], block.normals[face]
+    u, v = block.corners[(face + 1) % len(block.corners)]
+    along = -ny * (point[0] - x) + nx * (point[1] - y)
+    return 0 <= along <= -ny * (u - x) + nx * (v - y)
 
 
 def _nearest(one: Outline, other: Outline) -> Point:

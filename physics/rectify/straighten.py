@@ -10,7 +10,8 @@ to first order.
 
 What a hand meant is told from the shape itself. Where its corners or its sides agree to rounding, nobody drew
 it by hand: it is turned on purpose, and left alone. Lengths count as equal only within the unsteadiness
-that the hand has shown in the directions of the same shape.
+that the hand has shown in the directions of the same shape. A block that lies on a slanted side of another, to
+rounding, leans as that does.
 
 Winding: a polygon that is corrected comes out anti-clockwise to the eye (with y down, the shoelace area of
 `sketch.geometry.signed_area` is then negative, and positive in the scene, where y is up). One that
@@ -28,6 +29,8 @@ from math import atan2, cos, hypot, pi, radians, sin
 import numpy as np
 
 from physics.rectify.correction import Correction, Step, correction, reshaped
+from physics.rectify.flush import lies_aslant
+from physics.rectify.separation import Outline, outline_of
 from sketch.ink import FloatArray
 from sketch.page import Sketch
 from sketch.shapes import Point, Polygon, Shape
@@ -68,16 +71,28 @@ class StraightRule:
 
 
 RULE = StraightRule()
+
+
 def straighten(sketch: Sketch, skipped: Container[str] = ()) -> Step:
     """C1 on every polygon of the page but those skipped."""
     shapes: dict[str, Shape] = {}
     corrections: list[Correction] = []
+    outlines: dict[str, Outline] = {}
     why = "its nearly level, upright, parallel, equal or right-angled sides are made so"
     for part in sketch.components:
         if isinstance(part.shape, Polygon) and part.label not in skipped:
             drawn: list[Point] = [(x, y) for x, y in part.shape.vertices.tolist()]
             vertices = _straight(drawn)
-            if vertices != drawn:
+            if vertices == drawn:
+                continue
+            if not outlines:
+                outlines = {
+                    other.label: outline_of(other.shape)
+                    for other in sketch.components
+                    if isinstance(other.shape, Polygon)
+                }
+            own = outlines[part.label]
+            if not any(lies_aslant(other, own) for label, other in outlines.items() if label != part.label):
                 shape = shapes[part.label] = Polygon(_wound(vertices))
                 before: dict[str, Shape] = {part.label: part.shape}
                 corrections += correction("C1", part.label, before, {part.label: shape}, why, why)
