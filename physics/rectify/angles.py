@@ -89,7 +89,7 @@ def aim(sketch: Sketch, meanings: Meanings, touching: Touching, skipped: Contain
         for label, said in sorted(wanted.items()):
             if abs(_off(after, label, said)) <= RULE.exact:
                 continue
-            held = frozenset(one for one, others in touching().items() if others)
+            held = frozenset(touching())
             shapes = _aimed(after, label, said, held)
             after = reshaped(after, shapes)
             causes |= dict.fromkeys(shapes, label) | {label: label}

@@ -79,44 +79,60 @@ def meant_to_touch(one: Solid, other: Solid) -> bool:
     return _slip(outline_of(one), outline_of(other)) is not None
 
 
-def resting(sketch: Sketch) -> dict[str, frozenset[str]]:
-    """For every solid the labels of those that it is meant to touch; two that a link joins are not, since
-    the link is what keeps them apart, nor are two that are fixed."""
-    outlines = outlines_of(sketch)
-    touching: dict[str, set[str]] = {label: set() for label in outlines}
-    for one, other, _ in _pairs(sketch, outlines):
-        touching[one].add(other)
-        touching[other].add(one)
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """Two solids (labels) that are meant to touch. slip: how far their gap or overlap is from none, as a share of
+    the most that a slip of the pen can be."""
+
+    one: str
+    other: str
+    slip: float
+
+    @property
+    def labels(self) -> frozenset[str]:
+        return frozenset((self.one, self.other))
+
+
+def resting(pairs: Sequence[Pair]) -> dict[str, frozenset[str]]:
+    """For every solid that is meant to touch any the labels of those."""
+    touching: dict[str, set[str]] = {}
+    for pair in pairs:
+        touching.setdefault(pair.one, set()).add(pair.other)
+        touching.setdefault(pair.other, set()).add(pair.one)
     return {label: frozenset(others) for label, others in touching.items()}
 
 
-def touch(sketch: Sketch, mass: Callable[[str], float], skipped: Container[str] = ()) -> Step:
-    """C2 on the whole page. mass: of a solid by its label, kg; skipped: labels of what stays where it is."""
+def touch(
+    sketch: Sketch, pairs: Sequence[Pair], mass: Callable[[str], float], skipped: Container[str] = ()
+) -> Step:
+    """C2 on the whole page. pairs: that are meant to touch; mass: of a solid by its label, kg; skipped: labels of
+    what stays where it is."""
     outlines = outlines_of(sketch)
     still = {part.label for part in sketch.components if part.fixed or part.label in skipped}
     weight = dict.fromkeys(still, inf)  # the others are weighed where it matters
-    pairs: dict[frozenset[str], _Pair] = {}
+    known = {pair.labels: pair for pair in pairs}
     shifts: dict[str, Point] = {}
     for _ in range(RULE.rounds):
-        # What has been moved may have come near to something else, which then belongs to it.
-        here = {label: outline.shifted(*shifts.get(label, (0.0, 0.0))) for label, outline in outlines.items()}
-        known = len(pairs)
-        for one, other, slip in _pairs(sketch, here if shifts else outlines):
-            if not {one, other} <= still:
-                pairs.setdefault(frozenset((one, other)), (one, other, slip))
-        if shifts and len(pairs) == known:
-            break
         shifts = {}
-        for cluster in _clusters(list(pairs.values()), still):
+        for cluster in _clusters([pair for pair in known.values() if not pair.labels <= still], still):
             if any(
-                abs(separation(outlines[one], outlines[other])[0]) > RULE.exact for one, other, _ in cluster
+                abs(separation(outlines[pair.one], outlines[pair.other])[0]) > RULE.exact for pair in cluster
             ):
-                for label in {label for pair in cluster for label in pair[:2]} - still:
+                for label in {label for pair in cluster for label in pair.labels} - still:
                     weight[label] = mass(label)
                 shifts |= _settled(cluster, outlines, weight)
         if not shifts:
             break
-    held = {label for pair in pairs for label in pair}
+        # What has been moved may have come near to something else, which then belongs to it.
+        here = {
+            label: outline.shifted(*shifts[label]) if label in shifts else outline
+            for label, outline in outlines.items()
+        }
+        new = {pair.labels: pair for pair in pairs_of(sketch, here) if pair.labels not in known}
+        known |= new
+        if not new:
+            break
+    held = frozenset(label for labels in known for label in labels)
     return _moved(sketch, shifts, held) if shifts else Step(sketch)
 
 
@@ -129,12 +145,9 @@ def outlines_of(sketch: Sketch) -> dict[str, Outline]:
     }
 
 
-_Pair = tuple[str, str, float]
-"""Two solids, and how far from plausible their contact is: 0 is exact, 1 the limit."""
-
-
-def _pairs(sketch: Sketch, outlines: dict[str, Outline]) -> list[_Pair]:
-    """All pairs that are meant to touch, in an order that does not depend on the order of drawing."""
+def pairs_of(sketch: Sketch, outlines: Mapping[str, Outline]) -> list[Pair]:
+    """All pairs that are meant to touch, in an order that does not depend on the order of drawing. Two that a link
+    joins are not, since the link is what keeps them apart, nor are two that are fixed."""
     fixed = {part.label for part in sketch.components if part.fixed}
     joined = {
         frozenset(part.ends)
@@ -147,13 +160,13 @@ def _pairs(sketch: Sketch, outlines: dict[str, Outline]) -> list[_Pair]:
     low, high = (np.array([getattr(outlines[label], side) for label in labels]) for side in ("low", "high"))
     # No gap is less than that between the boxes around two outlines.
     near = ((low[:, None] - high[None, :] <= RULE.most).all(axis=2)).astype(bool)
-    found: list[_Pair] = []
+    found: list[Pair] = []
     for i, j in np.argwhere(np.triu(near & near.T, 1)).tolist():
         one, other = labels[i], labels[j]
         if not (one in fixed and other in fixed) and frozenset((one, other)) not in joined:
             slip = _slip(outlines[one], outlines[other])
             if slip is not None:
-                found.append((one, other, slip))
+                found.append(Pair(one, other, slip))
     return found
 
 
@@ -170,12 +183,12 @@ def _slip(one: Outline, other: Outline) -> float | None:
     return abs(gap) / most if abs(gap) <= most else None
 
 
-def _clusters(pairs: list[_Pair], still: Container[str]) -> list[list[_Pair]]:
+def _clusters(pairs: list[Pair], still: Container[str]) -> list[list[Pair]]:
     """Pairs that have movable solids in common, directly or through others, belong together."""
     group: dict[str, int] = {}
-    clusters: dict[int, list[_Pair]] = {}
+    clusters: dict[int, list[Pair]] = {}
     for k, pair in enumerate(pairs):
-        movable = [label for label in pair[:2] if label not in still]
+        movable = [label for label in (pair.one, pair.other) if label not in still]
         met = sorted({group[label] for label in movable if label in group})
         clusters[k] = [one for name in met for one in clusters.pop(name)] + [pair]
         group = {label: k if name in met else name for label, name in group.items()} | dict.fromkeys(
@@ -184,10 +197,10 @@ def _clusters(pairs: list[_Pair], still: Container[str]) -> list[list[_Pair]]:
     return list(clusters.values())
 
 
-def _settled(pairs: list[_Pair], outlines: dict[str, Outline], weight: dict[str, float]) -> dict[str, Point]:
+def _settled(pairs: list[Pair], outlines: dict[str, Outline], weight: dict[str, float]) -> dict[str, Point]:
     """How far each solid of a cluster must be moved."""
     kept = list(pairs)
-    labels = list(dict.fromkeys(label for pair in pairs for label in pair[:2]))
+    labels = list(dict.fromkeys(label for pair in pairs for label in (pair.one, pair.other)))
     movable = [label for label in labels if weight[label] < inf]
     if len(movable) == len(labels):
         heaviest = sorted(movable, key=lambda label: weight[label])
@@ -199,12 +212,12 @@ def _settled(pairs: list[_Pair], outlines: dict[str, Outline], weight: dict[str,
             return moves
         # Of those that stand in each other's way, the one that was drawn worst.
         amiss = [k for k, off in enumerate(left) if off > 1e-3 * max(left)]
-        kept.pop(max(amiss, key=lambda k: kept[k][2]))
+        kept.pop(max(amiss, key=lambda k: kept[k].slip))
     return {}
 
 
 def _closed(
-    pairs: list[_Pair], movable: list[str], outlines: dict[str, Outline], weight: dict[str, float]
+    pairs: list[Pair], movable: list[str], outlines: dict[str, Outline], weight: dict[str, float]
 ) -> tuple[dict[str, Point] | None, Sequence[float]]:
     """(the least displacements that close all gaps, or None; what is left of each gap where they cannot be)."""
     column = {label: 2 * k for k, label in enumerate(movable)}
@@ -216,9 +229,9 @@ def _closed(
     gaps = np.zeros(len(pairs))
     for _ in range(RULE.steps):
         slopes = np.zeros((len(pairs), len(moves)))
-        for row, (one, other, _) in enumerate(pairs):
-            gaps[row], direction = separation(here[one], here[other])
-            for label, sign in ((one, -1.0), (other, 1.0)):
+        for row, pair in enumerate(pairs):
+            gaps[row], direction = separation(here[pair.one], here[pair.other])
+            for label, sign in ((pair.one, -1.0), (pair.other, 1.0)):
                 if label in column:
                     slopes[row, column[label] : column[label] + 2] = np.multiply(sign, direction)
         if settled and np.abs(gaps).max() <= RULE.closed:

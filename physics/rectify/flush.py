@@ -18,7 +18,7 @@ from physics.rectify.correction import Correction, Step, correction, reshaped, s
 from physics.rectify.separation import Outline, boxes_apart, outline_of, separation
 from sketch.geometry import centroid
 from sketch.page import Sketch
-from sketch.shapes import Polygon
+from sketch.shapes import Point, Polygon
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,14 +50,16 @@ def lay(sketch: Sketch, touching: Touching, skipped: Container[str] = ()) -> Ste
     # The lower ones first; of two alike the left one.
     for label in sorted(movable, key=lambda label: (-blocks[label].centre[1], blocks[label].centre[0])):
         if len(blocks) > 1 and label not in settled:
-            angle = _angle(blocks[label], [blocks[one] for one in sorted(touching()[label] & settled)])
+            angle = _angle(
+                blocks[label], [blocks[one] for one in sorted(touching().get(label, frozenset()) & settled)]
+            )
             settled.add(label)
             if angle is None:
                 continue
             shape = after.component(label).shape
             assert isinstance(shape, Polygon)
             x, y = centroid(shape.vertices).tolist()
-            held = frozenset(one for one, others in touching().items() if others)
+            held = frozenset(touching())
             shapes = taken_along(after, {label: turn((x, y), angle)}, held)
             why = "it is turned to lie along what it was drawn to touch"
             corrections += correction(
@@ -77,7 +79,7 @@ def lies_aslant(one: Outline, other: Outline) -> bool:
     gap, (dx, dy) = separation(one, other)
     if abs(gap) > RULE.exact or min(abs(dx), abs(dy)) <= RULE.exact:
         return False
-    angle, length = _between(one, other)
+    angle, length = _between(one, other, (dx, dy))
     return abs(angle) * length <= RULE.exact
 
 
@@ -85,8 +87,8 @@ def _angle(block: Outline, under: list[Outline]) -> float | None:
     """By how much a block must be turned to lie along what bears it; None where it is not to be turned."""
     best: tuple[float, float] | None = None
     for other in under:
-        gap, (_, y) = separation(other, block)
-        angle, length = _between(other, block)
+        gap, (x, y) = separation(other, block)
+        angle, length = _between(other, block, (x, y))
         if abs(gap) <= RULE.exact or abs(angle) * length <= RULE.exact:
             return None
         if abs(angle) <= RULE.turn and (best is None or y < best[0]):
@@ -94,10 +96,10 @@ def _angle(block: Outline, under: list[Outline]) -> float | None:
     return None if best is None else best[1]
 
 
-def _between(one: Outline, other: Outline) -> tuple[float, float]:
+def _between(one: Outline, other: Outline, towards: Point) -> tuple[float, float]:
     """(the angle by which `other` must be turned so that the sides that face each other are parallel; the
-    longer one's length)."""
-    _, (dx, dy) = separation(one, other)
+    longer one's length). towards: the direction from `one` to `other`."""
+    dx, dy = towards
     own = max(range(len(one.normals)), key=lambda k: one.normals[k][0] * dx + one.normals[k][1] * dy)
     facing = min(range(len(other.normals)), key=lambda k: other.normals[k][0] * dx + other.normals[k][1] * dy)
     (ax, ay), (bx, by) = one.normals[own], other.normals[facing]

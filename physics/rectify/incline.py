@@ -170,7 +170,7 @@ def _tilted(sketch: Sketch, label: str, angle: float, touching: Touching) -> dic
             x, y = part.shape.centre
             if abs(hypot(x - top[0], y - top[1]) - part.shape.radius) <= RULE.top:
                 places[part.label] = shift(new[0] - top[0], new[1] - top[1])
-    held = {one for one, others in touching().items() if others}
+    held = frozenset(touching())
     # The two sides that meet in the corner span the plane; the top alone moves.
     shapes = taken_along(sketch, places | {label: _affine(foot, corner, top, new)}, held)
     return shapes | {label: Polygon(vertices)}
@@ -188,7 +188,7 @@ def _riders(
     slant = hypot(top[0] - foot[0], top[1] - foot[1])
     riders: list[str] = []
     for part in sketch.components:
-        if part.label not in touching[label] or part.fixed:
+        if part.fixed or part.label not in touching.get(label, ()):
             continue
         assert isinstance(part.shape, Circle | Polygon)
         _, (x, y) = apart(shape, part.shape)
@@ -196,7 +196,7 @@ def _riders(
         if along <= sin(RULE.facing) and y < 0:
             riders.append(part.label)
     for rider in riders:  # grows as it goes
-        for other in sorted(touching[rider]):
+        for other in sorted(touching.get(rider, ())):
             if other not in riders and not sketch.component(other).fixed:
                 riders.append(other)
     return riders

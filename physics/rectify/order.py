@@ -25,7 +25,7 @@ from physics.formula.meaning import Meanings, read
 from physics.formula.names import mass_of
 from physics.rectify.angles import aim
 from physics.rectify.attachments import attach
-from physics.rectify.contacts import resting, touch
+from physics.rectify.contacts import Pair, outlines_of, pairs_of, resting, touch
 from physics.rectify.correction import RULES, Correction, Key, Rectified, Rule
 from physics.rectify.flush import lay
 from physics.rectify.incline import tilt
@@ -60,12 +60,16 @@ def rectify(sketch: Sketch, without: Iterable[Key] = ()) -> Rectified:
     straight = straighten(sketch, skipped("C1"))
 
     @cache
+    def pairs() -> list[Pair]:
+        return pairs_of(straight.sketch, outlines_of(straight.sketch))
+
+    @cache
     def touching() -> Mapping[str, frozenset[str]]:
-        return resting(straight.sketch)
+        return resting(pairs())
 
     tilted = tilt(straight.sketch, meanings, touching, skipped("C3"))
     laid = lay(tilted.sketch, touching, skipped("C2"))
-    moved = touch(laid.sketch, mass, skipped("C2"))
+    moved = touch(laid.sketch, pairs(), mass, skipped("C2"))
     attached = attach(moved.sketch, skipped("C4"))
     aimed = aim(attached.sketch, meanings, touching, skipped("C5"))
     steps = (straight, tilted, laid, moved, attached, aimed)

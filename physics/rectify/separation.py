@@ -8,6 +8,7 @@ their arithmetic.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from math import hypot, pi, sqrt
 
@@ -44,6 +45,7 @@ class Outline:
         )
 
 
+@lru_cache(maxsize=1024)  # every step of a correction asks for those of all solids
 def outline_of(solid: Solid) -> Outline:
     """A solid's outline."""
     if isinstance(solid, Circle):

@@ -107,7 +107,7 @@ def _straight(drawn: list[Point]) -> list[Point]:
         after = _once(result)
         if after == result:
             return result
-        if not _plausible(drawn, after):
+        if result is not drawn and not _plausible(drawn, after):
             return drawn
         result = after
     return drawn
@@ -226,7 +226,7 @@ def _related(
             if after is not None and _plausible(drawn, after):
                 equal.append((k, other))
                 result = after
-    return result if _plausible(drawn, result) else vertices
+    return result if result is vertices or _plausible(drawn, result) else vertices
 
 
 _Directions = list[tuple[int, bool] | None]
