@@ -53,7 +53,8 @@ class InferenceRule:
     """Page units: a gap below this is a contact that a given normal force may stand in for."""
     sinks: float = 0.3
     """Share of a solid's half size (a ball's radius) by which it sinks before it is struck back: deep enough to be
-    seen at arm's length, and so soon that a force 10 % too small bounces a ball twice on its way down."""
+    seen across a room (7 page units of a ball 50 across), and shallow enough that under a force 10 % too small a
+    ball is back at the surface before it has come down a drawn incline."""
     shallowest: float = 0.02
     """m: no less, or rounding and the pen would strike."""
     creeps: float = 1e-3

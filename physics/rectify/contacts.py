@@ -120,7 +120,7 @@ def touch(
             ):
                 for label in {label for pair in cluster for label in pair.labels} - still:
                     weight[label] = mass(label)
-                shifts |= _settled(cluster, outlines, weight)
+                shifts |= _settled(cluster, outlines, weight, skipped)
         if not shifts:
             break
         # What has been moved may have come near to something else, which then belongs to it.
@@ -197,7 +197,9 @@ def _clusters(pairs: list[Pair], still: Container[str]) -> list[list[Pair]]:
     return list(clusters.values())
 
 
-def _settled(pairs: list[Pair], outlines: dict[str, Outline], weight: dict[str, float]) -> dict[str, Point]:
+def _settled(
+    pairs: list[Pair], outlines: dict[str, Outline], weight: dict[str, float], skipped: Container[str]
+) -> dict[str, Point]:
     """How far each solid of a cluster must be moved."""
     kept = list(pairs)
     labels = list(dict.fromkeys(label for pair in pairs for label in (pair.one, pair.other)))
@@ -210,9 +212,10 @@ def _settled(pairs: list[Pair], outlines: dict[str, Outline], weight: dict[str, 
         moves, left = _closed(kept, movable, outlines, weight)
         if moves is not None:
             return moves
-        # Of those that stand in each other's way, the one that was drawn worst.
+        # Of those that stand in each other's way, one with something that was not to be moved; then the one
+        # that was drawn worst.
         amiss = [k for k, off in enumerate(left) if off > 1e-3 * max(left)]
-        kept.pop(max(amiss, key=lambda k: kept[k].slip))
+        kept.pop(max(amiss, key=lambda k: (any(label in skipped for label in kept[k].labels), kept[k].slip)))
     return {}
 
 
