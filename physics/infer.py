@@ -243,10 +243,8 @@ def _friction(
     pushed = [page.at_start(program, body.label) for force in forces for program in (force.x, force.y)]
     net = (sum(pushed[::2]), sum(pushed[1::2]) - body.mass * page.g)
     nx, ny = bearing.normal
-    if given is not None:
-        normal = page.at_start(given.force, body.label)
-    else:
-        normal = -(net[0] * nx + net[1] * ny)
+    borne = -(net[0] * nx + net[1] * ny)
+    normal = borne if given is None else page.at_start(given.force, body.label)
     program = _with_normal(page, said, body.label, normal)
     if program is None:
         return None

@@ -32,7 +32,6 @@ from physics.rectify.incline import tilt
 from physics.rectify.straighten import straighten
 from sketch.page import Sketch
 
-
 NOTHING = Meanings((), ())
 """What is said of most things."""
 

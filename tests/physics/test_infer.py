@@ -110,7 +110,7 @@ def on_incline(kind: str, remarks: tuple[tuple[str, str | None, None], ...]) -> 
         (cos(ANGLE), -sin(ANGLE)),
         (-sin(ANGLE), -cos(ANGLE)),
     )
-    triangle = Polygon([foot, foot + (base, 0), foot + (base, -base * np.tan(ANGLE))])
+    triangle = Polygon([foot, np.add(foot, (base, 0)), np.add(foot, (base, -base * np.tan(ANGLE)))])
     at = foot + 250 * np.array(up)
     if kind == "ball":
         centre = at + 25 * np.array(out)
