@@ -10,20 +10,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from physics.formula.meaning import GRAVITY, Meanings, read
-from physics.formula.names import constant_of, lookup, mass_of
+from physics.formula.names import constant_of, lookup
 from physics.infer import act
 from physics.parts.courses import courses_of
-from physics.parts.given import Page, by_component, to_metres
+from physics.parts.given import Page, spoken, to_metres
 from physics.parts.links import links_of
 from physics.parts.solids import Figure, body_of, solids_of
 from physics.scene import Scene
 from sketch.page import Sketch
 
 __all__ = ["Built", "build", "to_metres"]
-
-
-NOTHING = Meanings((), ())
-"""What is said of most things."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +41,7 @@ def build(sketch: Sketch) -> Built:
     courses = [
         course
         for figure in solids
-        if figure.part.label in page.own
+        if figure.part.label in page.spoken.own
         for course in courses_of(page, figure.part)
     ]
     bodies = tuple(body_of(page, figure, courses) for figure in solids)
@@ -71,12 +67,12 @@ def _gravity(sketch: Sketch, meanings: Meanings, notices: list[str]) -> float:
 
 
 def _page(sketch: Sketch, meanings: Meanings, solids: Sequence[Figure], g: float, notices: list[str]) -> Page:
-    own = by_component(meanings)
+    by_component = spoken(meanings)
     masses: dict[str, float] = {}
     starts: dict[str, tuple[float, float]] = {}
     for figure in solids:
         part = figure.part
-        masses[part.label], notice = mass_of(sketch, meanings if part.label in own else NOTHING, part)
+        masses[part.label], notice = by_component.mass(sketch, part)
         notices += [] if notice is None else [notice]
         starts[part.label] = to_metres(figure.centre)
-    return Page(sketch, meanings, masses, starts, g, notices, own)
+    return Page(sketch, meanings, masses, starts, g, notices, by_component)

@@ -24,8 +24,9 @@ from collections.abc import Container, Mapping
 from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, pi, sin
 
-from physics.formula.meaning import GRAVITY, Meanings
+from physics.formula.meaning import GRAVITY
 from physics.formula.names import constant_of, lookup
+from physics.parts.given import Spoken
 from physics.rectify.contacts import Touching
 from physics.rectify.correction import Correction, Step, hangs, reshaped, shift, taken_along, turn
 from sketch.page import Component, Sketch
@@ -60,12 +61,12 @@ class Said:
         return (level if dx >= 0 else -level), (rise if dy >= 0 else -rise)
 
 
-def said_of(sketch: Sketch, meanings: Meanings, part: Component) -> Said | None:
+def said_of(sketch: Sketch, spoken: Spoken, part: Component) -> Said | None:
     """What the page says of a link's angle, None where it says nothing that can be."""
-    said = meanings.of(part.label, "angle", part.kind)
+    said = spoken.of(part, "angle")
     if said is None or said.anchor is None or not isinstance(part.shape, Spring | Wire):
         return None
-    angle = constant_of(said, lookup(sketch, meanings, part.label, {}, GRAVITY))
+    angle = constant_of(said, lookup(sketch, spoken.meanings, part.label, {}, GRAVITY))
     if angle is None or not 0 <= angle <= pi / 2:
         return None
     top, bottom = sorted((part.shape.start, part.shape.end), key=lambda end: end[1])
@@ -73,13 +74,12 @@ def said_of(sketch: Sketch, meanings: Meanings, part: Component) -> Said | None:
     return Said(angle, hypot(x - top[0], y - top[1]) < hypot(x - bottom[0], y - bottom[1]))
 
 
-def aim(sketch: Sketch, meanings: Meanings, touching: Touching, skipped: Container[str] = ()) -> Step:
+def aim(sketch: Sketch, spoken: Spoken, touching: Touching, skipped: Container[str] = ()) -> Step:
     """C5 on every spring and wire that an angle is said of, but those skipped."""
-    spoken = {said.component for said in meanings.said}
     wanted: dict[str, Said] = {}
     for part in sketch.components:
-        if part.label in spoken and part.label not in skipped and isinstance(part.shape, Spring | Wire):
-            said = said_of(sketch, meanings, part)
+        if part.label not in skipped and isinstance(part.shape, Spring | Wire):
+            said = said_of(sketch, spoken, part)
             if said is not None:
                 wanted[part.label] = said
     after = sketch

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from math import hypot, radians, sin
 
 from physics.rectify.correction import Correction, Step, correction, reshaped
-from sketch.geometry import nearest_on_boundary
+from physics.rectify.separation import nearest, outline_of
 from sketch.page import Sketch
 from sketch.shapes import Circle, Point, Polygon, Shape, Solid, Spring, Wire
 
@@ -58,11 +58,11 @@ def _holder(sketch: Sketch, label: str | None) -> Solid | None:
 
 
 def _clipped(solid: Solid, end: Point, other: Point) -> Point:
-    foot = nearest_on_boundary(solid, end)
+    foot = nearest(outline_of(solid), end)
     if hypot(foot[0] - end[0], foot[1] - end[1]) <= RULE.exact:
         return end
     if isinstance(solid, Circle):
-        facing = nearest_on_boundary(solid, other)
+        facing = nearest(outline_of(solid), other)
         near = 2 * solid.radius * sin(RULE.facing / 2)
         return facing if hypot(foot[0] - facing[0], foot[1] - facing[1]) <= near else foot
     return _vertex_near(solid, foot) or foot

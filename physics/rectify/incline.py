@@ -26,8 +26,9 @@ from dataclasses import dataclass
 from itertools import combinations
 from math import atan2, cos, hypot, pi, radians, sin
 
-from physics.formula.meaning import GRAVITY, Meanings
+from physics.formula.meaning import GRAVITY
 from physics.formula.names import constant_of, lookup
+from physics.parts.given import Spoken
 from physics.rectify.contacts import Touching
 from physics.rectify.correction import (
     Correction,
@@ -124,18 +125,17 @@ def raised(foot: Point, corner: Point, top: Point, angle: float) -> Point:
     return foot[0] + distance * vx, foot[1] + distance * vy
 
 
-def tilt(sketch: Sketch, meanings: Meanings, touching: Touching, skipped: Container[str] = ()) -> Step:
+def tilt(sketch: Sketch, spoken: Spoken, touching: Touching, skipped: Container[str] = ()) -> Step:
     """C3 on every right-angled triangle that an angle is said of, but those skipped."""
     after = sketch
     corrections: list[Correction] = []
-    spoken = {said.component for said in meanings.said}
     for part in sketch.components:
-        if part.label not in spoken or part.label in skipped or not isinstance(part.shape, Polygon):
+        if part.label in skipped or not isinstance(part.shape, Polygon):
             continue
-        said = meanings.of(part.label, "angle", "polygon")
+        said = spoken.of(part, "angle")
         angle = None
         if said is not None:
-            angle = constant_of(said, lookup(sketch, meanings, part.label, {}, GRAVITY))
+            angle = constant_of(said, lookup(sketch, spoken.meanings, part.label, {}, GRAVITY))
         if angle is not None and RULE.flattest <= angle <= pi / 2 - RULE.flattest:
             why = "its incline is given the angle that the page says it has"
             follows = f"it keeps its place on {part.label}, whose incline is given its angle"

@@ -21,8 +21,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import cache
 
-from physics.formula.meaning import Meanings, read
-from physics.formula.names import mass_of
+from physics.formula.meaning import read
+from physics.parts.given import spoken
 from physics.rectify.angles import aim
 from physics.rectify.attachments import attach
 from physics.rectify.contacts import Pair, outlines_of, pairs_of, resting, touch
@@ -31,9 +31,6 @@ from physics.rectify.flush import lay
 from physics.rectify.incline import tilt
 from physics.rectify.straighten import straighten
 from sketch.page import Sketch
-
-NOTHING = Meanings((), ())
-"""What is said of most things."""
 
 
 def rectify(sketch: Sketch, without: Iterable[Key] = ()) -> Rectified:
@@ -50,11 +47,10 @@ def rectify(sketch: Sketch, without: Iterable[Key] = ()) -> Rectified:
     def skipped(rule: Rule) -> frozenset[str]:
         return frozenset(label for name, label in left_out if name == rule)
 
-    meanings = read(sketch)
-    spoken = {said.component for said in meanings.said}
+    said = spoken(read(sketch))
 
     def mass(label: str) -> float:
-        return mass_of(sketch, meanings if label in spoken else NOTHING, sketch.component(label))[0]
+        return said.mass(sketch, sketch.component(label))[0]
 
     straight = straighten(sketch, skipped("C1"))
 
@@ -66,11 +62,11 @@ def rectify(sketch: Sketch, without: Iterable[Key] = ()) -> Rectified:
     def touching() -> Mapping[str, frozenset[str]]:
         return resting(pairs())
 
-    tilted = tilt(straight.sketch, meanings, touching, skipped("C3"))
+    tilted = tilt(straight.sketch, said, touching, skipped("C3"))
     laid = lay(tilted.sketch, touching, skipped("C2"))
     moved = touch(laid.sketch, pairs(), mass, skipped("C2"))
     attached = attach(moved.sketch, skipped("C4"))
-    aimed = aim(attached.sketch, meanings, touching, skipped("C5"))
+    aimed = aim(attached.sketch, said, touching, skipped("C5"))
     steps = (straight, tilted, laid, moved, attached, aimed)
     corrections: tuple[Correction, ...] = tuple(one for step in steps for one in step.corrections)
     return Rectified(aimed.sketch, corrections, sketch, left_out)

@@ -103,6 +103,17 @@ def boxes_apart(one: Outline, other: Outline) -> float:
     )
 
 
+def nearest(outline: Outline, point: Point) -> Point:
+    """The point of a solid's boundary nearest to a point (a disc's centre goes straight up)."""
+    if outline.corners:
+        feet = [_foot(start, end, point) for start, end in _sides(outline.corners)]
+        return min(feet, key=lambda foot: hypot(foot[0] - point[0], foot[1] - point[1]))
+    (cx, cy), radius = outline.centre, outline.radius
+    x, y = point[0] - cx, point[1] - cy
+    distance = hypot(x, y)
+    return (cx + radius * x / distance, cy + radius * y / distance) if distance > 0 else (cx, cy - radius)
+
+
 def _block_to_disc(block: Outline, disc: Outline) -> tuple[float, Point]:
     (cx, cy), corners = disc.centre, block.corners
     best, face = -1e300, 0

@@ -109,6 +109,8 @@ def _straight(drawn: list[Point]) -> list[Point]:
             return result
         if result is not drawn and not _plausible(drawn, after):
             return drawn
+        if all(x == 0 or y == 0 for x, y in _sides(after)):
+            return after  # nothing leans any more
         result = after
     return drawn
 
