@@ -136,7 +136,7 @@ def _aimed(sketch: Sketch, label: str, said: Said, held: Container[str]) -> dict
         return _with_end(part, yielding, goal)
     solid = sketch.component(holder)
     assert isinstance(solid.shape, Circle | Polygon)
-    if hangs(sketch, holder) and holder not in held:
+    if hangs(sketch, holder, label, held):
         place = turn(still, atan2(dx * uy - dy * ux, dx * ux + dy * uy))
         if isinstance(solid.shape, Polygon):
             place = shift(goal[0] - end[0], goal[1] - end[1])
@@ -159,7 +159,7 @@ def _yielding(sketch: Sketch, part: Component, held: Container[str]) -> int:
             return 1
         if sketch.component(label).fixed:
             return 2
-        return 0 if hangs(sketch, label) and label not in held else 3
+        return 0 if hangs(sketch, label, part.label, held) else 3
 
     one, other = firmness(part.ends[0]), firmness(part.ends[1])
     (x1, y1), (x2, y2) = part.shape.start, part.shape.end

@@ -149,7 +149,7 @@ def reshaped(sketch: Sketch, shapes: Mapping[str, Shape]) -> Sketch:
 
 def taken_along(sketch: Sketch, places: Mapping[str, Place], held: Container[str]) -> dict[str, Shape]:
     """New shapes where solids are moved, each by its own motion: of themselves, of the ends of links that are
-    attached to them, and of what hangs from them by a link of its own, which keeps its place below.
+    attached to them, and of what hangs from them, which keeps its place below.
 
     held: solids that do not follow a link, since they rest on something.
     """
@@ -165,7 +165,7 @@ def taken_along(sketch: Sketch, places: Mapping[str, Place], held: Container[str
             assert isinstance(link.shape, Spring | Wire)
             near = 0 if link.ends[0] == label else 1
             hung = link.ends[1 - near]
-            if hung is None or hung in places or hung in held or not hangs(sketch, hung):
+            if hung is None or hung in places or not hangs(sketch, hung, link.label, held):
                 continue
             end = link.shape.start if near == 0 else link.shape.end
             there = places[label](end)
@@ -184,11 +184,23 @@ def taken_along(sketch: Sketch, places: Mapping[str, Place], held: Container[str
     return {label: shape for label, shape in found.items() if shape != parts[label].shape}
 
 
-def hangs(sketch: Sketch, label: str) -> bool:
-    """Whether a solid can move and is held by one link only."""
-    if sketch.component(label).fixed:
-        return False
-    return sum(label in part.ends for part in sketch.components) == 1
+def hangs(sketch: Sketch, label: str, by: str, held: Container[str]) -> bool:
+    """Whether a solid hangs from a link (by), with all that other links join to it: nothing of that is fixed, rests
+    on something (held), or is pinned to the page by a free end."""
+    links = [part for part in sketch.components if isinstance(part.shape, Spring | Wire) and part.label != by]
+    fixed = {part.label for part in sketch.components if part.fixed}
+    reached = [label]
+    for one in reached:  # grows as it goes
+        if one in fixed or one in held:
+            return False
+        for link in links:
+            if one in link.ends:
+                other = link.ends[1] if link.ends[0] == one else link.ends[0]
+                if other is None:
+                    return False
+                if other not in reached:
+                    reached.append(other)
+    return True
 
 
 def correction(
