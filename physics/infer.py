@@ -11,8 +11,8 @@ The rules:
    One too small lets the solid sink in; at a depth of `sinks` of its size the edge strikes it back, without loss, so
    that it is seen to bounce. One too great lifts it off, for good. It is over when the centre leaves the edge.
 3. A scalar force is friction instead where its name says so (f_k, f_s, f_r, f_f, f_fr, F_k …), where its formula holds a
-   coefficient of friction (f = mu N), or where another scalar force has been given as the normal force already
-   (f_1 = …, then f_2 = …). It acts along the contact against the motion, and it replaces the engine's own
+   coefficient of friction (f = mu N), or where another scalar force is the normal force: one that is called so (N, R,
+   f_1, f_n), else the first (f_1 = …, f_2 = …). It acts along the contact against the motion, and it replaces the engine's own
    friction, of the same pair. In its formula N is the normal force at the start, if the page does not say what
    N is: what the student gave, or what balances the weight and all constant forces there.
    - On a block it is the engine's own friction with that bound: the coefficient is the share of the normal force at
@@ -36,8 +36,8 @@ from dataclasses import dataclass, replace
 from math import hypot, isfinite
 from typing import Literal
 
-from physics.formula.meaning import Said
-from physics.formula.program import STATE, Code, Program, ProgramError, compile_tree
+from physics.formula.meaning import Said, names_used
+from physics.formula.program import STATE, Code, Node, Program, ProgramError, Reading, compile_tree
 from physics.formula.vectors import split
 from physics.parts.given import Page, formula
 from physics.rectify.separation import Outline, outline_of, separation
@@ -67,6 +67,8 @@ class InferenceRule:
 RULE = InferenceRule()
 FRICTION_NAMES = frozenset({"k", "s", "r", "f", "fr", "mu", "friction"})
 """Subscripts that make a force friction."""
+NORMAL_NAMES = frozenset({"1", "n", "N", "normal"})
+"""Subscripts that make a force the normal force, before all others; and it is what N and R are."""
 FORCE_NAMES = frozenset({"f", "F", "N", "R"})
 
 
@@ -98,7 +100,7 @@ def act(page: Page, bodies: tuple[Body, ...]) -> Acting:
     materials: dict[str, Material] = {}
     outlines: dict[str, Outline] = {}
     for body in bodies:
-        said = _scalars_last(page, body)
+        said = _parted(page, body)
         if not said:
             continue
         if not outlines:
@@ -159,35 +161,61 @@ def _outlines(page: Page) -> dict[str, Outline]:
     }
 
 
-def _scalars_last(page: Page, body: Body) -> list[tuple[Said, Part]]:
+def _parted(page: Page, body: Body) -> list[tuple[Said, Part]]:
     """The newest of each force that is said of a body, and what it is: vectors, normal forces, then friction."""
     newest = {
         said.name: said
         for said in page.meanings.said
         if said.component == body.label and said.name.partition("_")[0] in FORCE_NAMES
     }
+    # N in f_1 = N is the same force by another name.
+    aliases = {str(said.tree) for said in newest.values() if str(said.tree) in newest}
+    forces = [said for said in newest.values() if said.name not in aliases]
     if body.fixed:
+        used = names_used(page.meanings.said)
+        page.notices.extend(
+            f"{said.text}: {body.label} is fixed, so it is not used."
+            for said in forces
+            if said.name not in used
+        )
         return []
-    found: list[tuple[Said, Part]] = []
-    normal: Said | None = None
-    for said in newest.values():
+    vectors: list[Said] = []
+    friction: list[Said] = []
+    scalars: list[Said] = []
+    for said in forces:
         try:
             pair = split(said.tree)
         except ProgramError as error:
             page.notices.append(f"{said.text} of {body.label} cannot be worked out: {error}. It is not used.")
             continue
-        _, _, index = said.name.partition("_")
-        if pair is not None or index[-1:] in ("x", "y"):
-            found.append((said, "vector"))
+        index = said.name.partition("_")[2]
+        if pair is not None or _along_axis(index):
+            vectors.append(said)
         elif index in FRICTION_NAMES or _holds_coefficient(said):
-            found.append((said, "friction"))
-        elif normal is None:
-            normal = said
-            found.append((said, "normal"))
+            friction.append(said)
         else:
-            found.append((said, "friction"))
-    order = ("vector", "normal", "friction")
-    return sorted(found, key=lambda one: order.index(one[1]))
+            scalars.append(said)
+    named = [said for said in scalars if _normal_by_name(said.name)]
+    for said in named[:-1]:
+        page.notices.append(
+            f"{body.label} is given {said.text} and {named[-1].text} as its normal force; the newest is used."
+        )
+    normal = named[-1:] or scalars[:1]
+    friction += [said for said in scalars if said not in normal and said not in named]
+    found: list[tuple[Said, Part]] = [(said, "vector") for said in vectors]
+    found += [(said, "normal") for said in normal]
+    found += [(said, "friction") for said in friction]
+    return found
+
+
+def _along_axis(index: str) -> bool:
+    """Whether a force's subscript names a direction: x or y, after a number at most."""
+    return index[-1:] in ("x", "y") and (len(index) == 1 or index[:-1].isdigit())
+
+
+def _normal_by_name(name: str) -> bool:
+    base, _, index = name.partition("_")
+    return base in ("N", "R") or index in NORMAL_NAMES
 
 
 def _holds_coefficient(said: Said) -> bool:
@@ -273,12 +301,12 @@ def _with_normal(page: Page, said: Said, label: str, normal: float) -> Program |
     """The program of friction, with the true normal force for an N that nobody explains."""
     names = page.names(label)
 
-    def find(name: str) -> object:
+    def find(name: str) -> Node | float | Reading | None:
         found = names(name)
         return normal if name == "N" and found is None else found
 
     try:
-        made = compile_tree(said.tree, find, formula(said))  # type: ignore[arg-type]
+        made = compile_tree(said.tree, find, formula(said))
     except ProgramError as error:
         page.refuse(said, label, error)
         return None

@@ -130,6 +130,8 @@ def on_incline(kind: str, remarks: tuple[tuple[str, str | None, None], ...]) -> 
         (("f_k = 0.2 N", "B", None),),
         (("mu = 0.2", "B", None), ("f = mu N", "B", None)),
         (("f_1 = |W| cos(theta)", "B", None), ("f_2 = 0.2 |W| cos(theta)", "B", None)),
+        (("f_2 = 0.2 |W| cos(theta)", "B", None), ("f_1 = |W| cos(theta)", "B", None)),
+        (("N = |W| cos(theta)", "B", None), ("f_1 = N", "B", None), ("f_k = 0.2 N", "B", None)),
         (("mu_k = 0.2", "B", None), ("N = m g cos(theta)", "B", None), ("F_k = mu_k N", "B", None)),
     ],
 )
@@ -190,6 +192,17 @@ def test_what_cannot_be_inferred_is_told_and_not_used() -> None:
     resting = Component(Circle((200.0, 270.0), 30.0), label="B")
     built = build(page((FLOOR, resting), (("f_k = -1", "B", None),)))
     assert any("not below zero" in notice for notice in built.notices)
+
+
+def test_forces_on_what_is_fixed_are_told_and_so_is_a_second_normal_force() -> None:
+    ball = Component(Circle((200.0, 270.0), 30.0), label="B")
+    said = (("f = 3", "F", None), ("N = 4", "B", None), ("f_1 = 5", "B", None))
+    built = build(page((FLOOR, ball), said))
+    assert any("F is fixed" in notice for notice in built.notices)
+    assert any("N = 4 and f_1 = 5" in notice for notice in built.notices)
+    (support,) = built.scene.supports
+    assert support.name == "f_1"
+    assert built.scene.forces == ()
 
 
 def test_without_an_association_the_engine_supplies_the_true_forces() -> None:
