@@ -113,9 +113,9 @@ def times(count: int, noise: float, repeats: int, seed: int) -> dict[str, dict[s
     build(rectify(crowd[0]).sketch)  # warm-up
     spent: dict[str, list[float]] = {"rectify": [], "build": []}
     for sketch in crowd:
-        corrected = rectify(sketch).sketch
+        corrected = rectify(sketch)
         one = _best(lambda page=sketch: rectify(page), repeats)
-        other = _best(lambda page=corrected: build(page), repeats)
+        other = _best(lambda page=corrected: build(page.sketch, page.meanings), repeats)
         spent["rectify"].append(one)
         spent["build"].append(other)
     spent["both"] = [one + other for one, other in zip(spent["rectify"], spent["build"], strict=True)]

@@ -30,10 +30,10 @@ class Built:
     notices: tuple[str, ...]
 
 
-def build(sketch: Sketch) -> Built:
+def build(sketch: Sketch, meanings: Meanings | None = None) -> Built:
     """The scene of a page. Never raises for what a page may hold: what cannot be is left out, and
-    a notice says so."""
-    meanings = read(sketch)
+    a notice says so. meanings: what the page says, if it has been read already."""
+    meanings = read(sketch) if meanings is None else meanings
     notices = list(meanings.notices)
     g = _gravity(sketch, meanings, notices)
     solids = solids_of(sketch, notices)

@@ -163,15 +163,14 @@ def _outlines(page: Page) -> dict[str, Outline]:
 
 def _parted(page: Page, body: Body) -> list[tuple[Said, Part]]:
     """The newest of each force that is said of a body, and what it is: vectors, normal forces, then friction."""
-    newest = {
-        said.name: said
-        for said in page.meanings.said
-        if said.component == body.label and said.name.partition("_")[0] in FORCE_NAMES
-    }
+    own = page.spoken.own.get(body.label)
+    if own is None:
+        return []
+    newest = {said.name: said for said in own.said if said.name.partition("_")[0] in FORCE_NAMES}
     # N in f_1 = N is the same force by another name.
     aliases = {str(said.tree) for said in newest.values() if str(said.tree) in newest}
     forces = [said for said in newest.values() if said.name not in aliases]
-    if body.fixed:
+    if body.fixed and forces:
         used = names_used(page.meanings.said)
         page.notices.extend(
             f"{said.text}: {body.label} is fixed, so it is not used."
@@ -202,10 +201,12 @@ def _parted(page: Page, body: Body) -> list[tuple[Said, Part]]:
         )
     normal = named[-1:] or scalars[:1]
     friction += [said for said in scalars if said not in normal and said not in named]
-    found: list[tuple[Said, Part]] = [(said, "vector") for said in vectors]
-    found += [(said, "normal") for said in normal]
-    found += [(said, "friction") for said in friction]
-    return found
+    parts: tuple[tuple[Part, list[Said]], ...] = (
+        ("vector", vectors),
+        ("normal", normal),
+        ("friction", friction),
+    )
+    return [(said, part) for part, several in parts for said in several]
 
 
 def _along_axis(index: str) -> bool:

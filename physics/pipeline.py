@@ -40,7 +40,7 @@ def move(sketch: Sketch, seconds: float, rate: float = 60.0, without: Iterable[K
     or a rate that is not a positive number, and for springs too stiff to be simulated.
     """
     corrected = rectify(sketch, without)
-    built = build(corrected.sketch)
+    built = build(corrected.sketch, corrected.meanings)
     trajectory = simulate(built.scene, seconds, rate)
     return Motion(
         corrected.sketch,

@@ -32,7 +32,7 @@ from physics.rectify.correction import (
 )
 from physics.rectify.separation import Outline, boxes_apart, outline_of, separation
 from sketch.page import Sketch
-from sketch.shapes import Circle, Point, Polygon, Solid, Spring, Wire
+from sketch.shapes import Circle, Point, Polygon, Shape, Solid, Spring, Wire
 
 
 @dataclass(frozen=True, slots=True)
@@ -258,15 +258,16 @@ def _closed(
 def _moved(sketch: Sketch, shifts: dict[str, Point], held: Container[str]) -> Step:
     """The page with solids moved, one correction for each, and what hangs from them along with them."""
     corrections: list[Correction] = []
-    shapes = shapes_of(sketch)
+    shapes, changed = shapes_of(sketch), dict[str, Shape]()
     attached = {label for part in sketch.components for label in part.ends}
     why = "it is moved into contact with what it was drawn to touch"
     for label in sorted(shifts):
         place = shift(*shifts[label])
         if label in attached:
-            moves = taken_along(reshaped(sketch, shapes), {label: place}, held)
+            moves = taken_along(reshaped(sketch, changed), {label: place}, held)
         else:
             moves = {label: carried(shapes[label], place)}
         corrections += correction("C2", label, shapes, moves, why, f"it goes along with {label}")
         shapes |= moves
-    return Step(reshaped(sketch, shapes) if corrections else sketch, tuple(corrections))
+        changed |= moves
+    return Step(reshaped(sketch, changed), tuple(corrections))

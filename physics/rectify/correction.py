@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import cos, hypot, sin
 from typing import Literal, assert_never
 
+from physics.formula.meaning import Meanings
 from sketch.page import Sketch
 from sketch.shapes import Arrow, Circle, Point, Polygon, Shape, Spring, Wire
 
@@ -48,13 +49,15 @@ class Step:
 class Rectified:
     """A corrected page, and everything that was changed, in order.
 
-    drawn: the page as it was; without: the corrections that were not to be made.
+    drawn: the page as it was; without: the corrections that were not to be made; meanings: what the page says,
+    which correction does not change.
     """
 
     sketch: Sketch
     corrections: tuple[Correction, ...]
     drawn: Sketch
-    without: frozenset[Key] = frozenset()
+    without: frozenset[Key]
+    meanings: Meanings = field(compare=False)
 
     @property
     def displacement(self) -> float:

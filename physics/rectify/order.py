@@ -47,7 +47,8 @@ def rectify(sketch: Sketch, without: Iterable[Key] = ()) -> Rectified:
     def skipped(rule: Rule) -> frozenset[str]:
         return frozenset(label for name, label in left_out if name == rule)
 
-    said = spoken(read(sketch))
+    meanings = read(sketch)
+    said = spoken(meanings)
 
     def mass(label: str) -> float:
         return said.mass(sketch, sketch.component(label))[0]
@@ -69,7 +70,7 @@ def rectify(sketch: Sketch, without: Iterable[Key] = ()) -> Rectified:
     aimed = aim(attached.sketch, said, touching, skipped("C5"))
     steps = (straight, tilted, laid, moved, attached, aimed)
     corrections: tuple[Correction, ...] = tuple(one for step in steps for one in step.corrections)
-    return Rectified(aimed.sketch, corrections, sketch, left_out)
+    return Rectified(aimed.sketch, corrections, sketch, left_out, meanings)
 
 
 def undo(rectified: Rectified, index: int) -> Rectified:

@@ -92,7 +92,14 @@ def straighten(sketch: Sketch, skipped: Container[str] = ()) -> Step:
                     if isinstance(other.shape, Polygon)
                 }
             own = outlines[part.label]
-            if not any(lies_aslant(other, own) for label, other in outlines.items() if label != part.label):
+            (left, top), (right, bottom) = own.low, own.high
+            near = [
+                other
+                for other in outlines.values()
+                if other.low[0] < right + 1 and other.high[0] > left - 1
+                if other.low[1] < bottom + 1 and other.high[1] > top - 1
+            ]
+            if not any(other is not own and lies_aslant(other, own) for other in near):
                 shape = shapes[part.label] = Polygon(_wound(vertices))
                 before: dict[str, Shape] = {part.label: part.shape}
                 corrections += correction("C1", part.label, before, {part.label: shape}, why, why)
