@@ -7,7 +7,8 @@ gets a default; what it says and cannot be is left out. Either way a notice tell
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import inf
 
 from physics.formula.meaning import GRAVITY, Meanings, read
 from physics.formula.names import constant_of, lookup
@@ -18,6 +19,7 @@ from physics.parts.links import links_of
 from physics.parts.solids import Figure, body_of, solids_of
 from physics.scene import Scene
 from sketch.page import Sketch
+from sketch.shapes import Polygon
 
 __all__ = ["Built", "build", "to_metres"]
 
@@ -72,6 +74,8 @@ def _page(sketch: Sketch, meanings: Meanings, solids: Sequence[Figure], g: float
     starts: dict[str, tuple[float, float]] = {}
     for figure in solids:
         part = figure.part
+        if figure.filled == inf:
+            part = replace(part, shape=Polygon(figure.corners))
         masses[part.label], notice = by_component.mass(sketch, part)
         notices += [] if notice is None else [notice]
         starts[part.label] = to_metres(figure.centre)

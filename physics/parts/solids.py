@@ -32,7 +32,8 @@ RULE = SolidRule()
 @dataclass(frozen=True, slots=True)
 class Figure:
     """A component that has a body. corners: of a polygon's convex hull, page units, anti-clockwise to the eye, ()
-    for a circle; centre: of mass, page units; filled: the hull's area over the polygon's own."""
+    for a circle; centre: of mass, page units; filled: the hull's area over the polygon's own, infinite
+    where it crosses itself so that it has none."""
 
     part: Component
     corners: tuple[Point, ...]
@@ -54,7 +55,7 @@ def solids_of(sketch: Sketch, notices: list[str]) -> list[Figure]:
                 notices.append(f"{part.label} encloses no area; it is not part of the motion.")
             else:
                 own = _area_and_centre(drawn)[0]
-                found.append(Figure(part, tuple(corners), centre, area / own if own else inf))
+                found.append(Figure(part, tuple(corners), centre, area / own if own >= RULE.thin else inf))
     return found
 
 

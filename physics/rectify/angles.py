@@ -49,7 +49,7 @@ RULE = AngleRule()
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class LinkAngle:
     """A link's angle, radians, as measured from the vertical (steep) or from the horizontal."""
 
     angle: float
@@ -61,7 +61,7 @@ class Said:
         return (level if dx >= 0 else -level), (rise if dy >= 0 else -rise)
 
 
-def said_of(sketch: Sketch, spoken: Spoken, part: Component) -> Said | None:
+def angle_of(sketch: Sketch, spoken: Spoken, part: Component) -> LinkAngle | None:
     """What the page says of a link's angle, None where it says nothing that can be."""
     said = spoken.of(part, "angle")
     if said is None or said.anchor is None or not isinstance(part.shape, Spring | Wire):
@@ -71,15 +71,19 @@ def said_of(sketch: Sketch, spoken: Spoken, part: Component) -> Said | None:
         return None
     top, bottom = sorted((part.shape.start, part.shape.end), key=lambda end: end[1])
     x, y = said.anchor
-    return Said(angle, hypot(x - top[0], y - top[1]) < hypot(x - bottom[0], y - bottom[1]))
+    return LinkAngle(angle, hypot(x - top[0], y - top[1]) < hypot(x - bottom[0], y - bottom[1]))
 
 
-def aim(sketch: Sketch, spoken: Spoken, touching: Touching, skipped: Container[str] = ()) -> Step:
-    """C5 on every spring and wire that an angle is said of, but those skipped."""
-    wanted: dict[str, Said] = {}
-    for part in sketch.components:
-        if part.label not in skipped and isinstance(part.shape, Spring | Wire):
-            said = said_of(sketch, spoken, part)
+def aim(
+    sketch: Sketch, drawn: Sketch, spoken: Spoken, touching: Touching, skipped: Container[str] = ()
+) -> Step:
+    """C5 on every spring and wire that an angle is said of, but those skipped. drawn: the page on which the angles
+    were tapped."""
+    wanted: dict[str, LinkAngle] = {}
+    for part in drawn.components:
+        joins = part.ends[0] is None or part.ends[0] != part.ends[1]  # one within a single body cannot turn
+        if part.label not in skipped and joins and isinstance(part.shape, Spring | Wire):
+            said = angle_of(drawn, spoken, part)
             if said is not None:
                 wanted[part.label] = said
     after = sketch
@@ -111,7 +115,7 @@ def _corrections(before: Sketch, after: Sketch, causes: Mapping[str, str]) -> tu
     return tuple(sorted(found, key=lambda one: (one.cause, one.component != one.cause, one.component)))
 
 
-def _off(sketch: Sketch, label: str, said: Said) -> float:
+def _off(sketch: Sketch, label: str, said: LinkAngle) -> float:
     """By how much a link must be turned, radians."""
     shape = sketch.component(label).shape
     assert isinstance(shape, Spring | Wire)
@@ -120,7 +124,7 @@ def _off(sketch: Sketch, label: str, said: Said) -> float:
     return atan2(dx * uy - dy * ux, dx * ux + dy * uy)
 
 
-def _aimed(sketch: Sketch, label: str, said: Said, held: Container[str]) -> dict[str, Shape]:
+def _aimed(sketch: Sketch, label: str, said: LinkAngle, held: Container[str]) -> dict[str, Shape]:
     """New shapes of a link with its angle, and of what follows it."""
     part = sketch.component(label)
     shape = part.shape

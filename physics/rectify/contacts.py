@@ -32,7 +32,7 @@ from physics.rectify.correction import (
 )
 from physics.rectify.separation import Outline, boxes_apart, outline_of, separation
 from sketch.page import Sketch
-from sketch.shapes import Circle, Point, Polygon, Shape, Solid, Spring, Wire
+from sketch.shapes import Circle, Point, Polygon, Shape, Spring, Wire
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,11 +72,6 @@ RULE = ContactRule()
 
 Touching = Callable[[], Mapping[str, frozenset[str]]]
 """What each solid of a page is meant to touch, worked out when it is first asked for."""
-
-
-def meant_to_touch(one: Solid, other: Solid) -> bool:
-    """Whether a gap or an overlap is small enough to be a slip of the pen."""
-    return _slip(outline_of(one), outline_of(other)) is not None
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,7 +169,7 @@ def _slip(one: Outline, other: Outline) -> float | None:
     """How far a gap or an overlap is from none, as a share of the most that a slip of the pen can be; None for
     what is more."""
     size = min(one.size, other.size)
-    if boxes_apart(one, other) > min(RULE.gap * size, RULE.most):
+    if size == 0 or boxes_apart(one, other) > min(RULE.gap * size, RULE.most):
         return None
     gap, (_, y) = separation(one, other)
     most = min((RULE.overlap if gap < 0 else RULE.gap) * size, RULE.most)
@@ -214,7 +209,7 @@ def _settled(
             return moves
         # Of those that stand in each other's way, one with something that was not to be moved; then the one
         # that was drawn worst.
-        amiss = [k for k, off in enumerate(left) if off > 1e-3 * max(left)]
+        amiss = [k for k, off in enumerate(left) if off >= 1e-3 * max(left)] or range(len(kept))
         kept.pop(max(amiss, key=lambda k: (any(label in skipped for label in kept[k].labels), kept[k].slip)))
     return {}
 

@@ -8,7 +8,7 @@ from math import cos, hypot, sin
 from typing import Literal, assert_never
 
 from physics.formula.meaning import Meanings
-from sketch.page import Sketch
+from sketch.page import Association, Sketch
 from sketch.shapes import Arrow, Circle, Point, Polygon, Shape, Spring, Wire
 
 Rule = Literal["C1", "C2", "C3", "C4", "C5"]
@@ -222,6 +222,26 @@ def correction(
         for label in sorted(after, key=lambda label: (label != cause, label))
         if before[label] != after[label]
     )
+
+
+def with_anchors(before: Sketch, after: Sketch) -> Sketch:
+    """The corrected page with what was tapped on its links where it was on them: an angle tapped near an end is one
+    near that end still."""
+    anchors: list[Association] = []
+    for one in after.associations:
+        old, new = before.component(one.component).shape, after.component(one.component).shape
+        if isinstance(old, Spring | Wire) and isinstance(new, Spring | Wire) and old != new:
+            (x1, y1), (x2, y2) = old.start, old.end
+            dx, dy = x2 - x1, y2 - y1
+            length2 = dx * dx + dy * dy
+            along = ((one.anchor[0] - x1) * dx + (one.anchor[1] - y1) * dy) / length2
+            beside = ((one.anchor[1] - y1) * dx - (one.anchor[0] - x1) * dy) / length2
+            (x1, y1), (x2, y2) = new.start, new.end
+            dx, dy = x2 - x1, y2 - y1
+            one = replace(one, anchor=(x1 + along * dx - beside * dy, y1 + along * dy + beside * dx))
+        anchors.append(one)
+    associations = tuple(anchors)
+    return after if associations == after.associations else replace(after, associations=associations)
 
 
 def shapes_of(sketch: Sketch) -> dict[str, Shape]:

@@ -26,7 +26,7 @@ from physics.parts.given import spoken
 from physics.rectify.angles import aim
 from physics.rectify.attachments import attach
 from physics.rectify.contacts import Pair, outlines_of, pairs_of, resting, touch
-from physics.rectify.correction import RULES, Correction, Key, Rectified, Rule
+from physics.rectify.correction import RULES, Correction, Key, Rectified, Rule, with_anchors
 from physics.rectify.flush import lay
 from physics.rectify.incline import tilt
 from physics.rectify.straighten import straighten
@@ -67,10 +67,10 @@ def rectify(sketch: Sketch, without: Iterable[Key] = ()) -> Rectified:
     laid = lay(tilted.sketch, touching, skipped("C2"))
     moved = touch(laid.sketch, pairs(), mass, skipped("C2"))
     attached = attach(moved.sketch, skipped("C4"))
-    aimed = aim(attached.sketch, said, touching, skipped("C5"))
+    aimed = aim(attached.sketch, sketch, said, touching, skipped("C5"))
     steps = (straight, tilted, laid, moved, attached, aimed)
     corrections: tuple[Correction, ...] = tuple(one for step in steps for one in step.corrections)
-    return Rectified(aimed.sketch, corrections, sketch, left_out, meanings)
+    return Rectified(with_anchors(sketch, aimed.sketch), corrections, sketch, left_out, meanings)
 
 
 def undo(rectified: Rectified, index: int) -> Rectified:

@@ -128,7 +128,8 @@ def _block_to_disc(block: Outline, disc: Outline) -> tuple[float, Point]:
         )
         x, y = cx - foot_x, cy - foot_y
         distance = hypot(x, y)
-        return distance - disc.radius, (x / distance, y / distance)
+        if distance > 0:  # on the boundary of a hollow it is zero
+            return distance - disc.radius, (x / distance, y / distance)
     return best - disc.radius, block.normals[face]
 
 

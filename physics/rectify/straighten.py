@@ -66,6 +66,9 @@ class StraightRule:
     """Newton's, of which eight are enough where the relations agree with one another."""
     solved: float = 1e-13
     """Share of the longest side by which a relation that was solved for may fail."""
+    direction: float = 1e-4
+    """Weight of a direction that is solved for, beside a vertex's, at the end of the longest side: so little that it
+    is free, and so much that rounding does not turn it."""
     settled: float = 1e-12
     """The same, by which the last step may have moved a vertex (or radians, a direction)."""
 
@@ -301,10 +304,18 @@ def _nearest(
         weight[j] += 1
     sides = _sides(start)
     size = max(hypot(x, y) for x, y in sides)
-    for k, one in enumerate(directions):
-        if one is not None and not weight[index["angle", one[0]]]:
-            home[index["angle", one[0]]] = atan2(sides[k][1], sides[k][0]) - (pi / 2 if one[1] else 0.0)
-            weight[index["angle", one[0]]] = 1e-12 * size * size  # any direction is as good as another
+    for name, at in index.items():
+        if name[0] == "angle":
+            # The mean direction of its sides, which does not depend on where the outline begins; nearly any
+            # other is as good.
+            home[at] = _mean_direction(
+                [
+                    (side, one[1])
+                    for side, one in zip(sides, directions, strict=True)
+                    if one and one[0] == name[1]
+                ]
+            )
+            weight[at] = RULE.direction * size * size
     ease = 1 / np.sqrt(weight)
     values = home.copy()
     settled = False
@@ -317,6 +328,12 @@ def _nearest(
         settled = bool(np.abs(after - values).max() <= RULE.settled * size)
         values = after
     return None
+
+
+def _mean_direction(sides: list[tuple[Point, bool]]) -> float:
+    """Of sides that are parallel, or (True) across, up to the hand's unsteadiness; radians, up to half a turn."""
+    angles = [(2 * (atan2(y, x) - (pi / 2 if across else 0.0)), x * x + y * y) for (x, y), across in sides]
+    return atan2(sum(w * sin(a) for a, w in angles), sum(w * cos(a) for a, w in angles)) / 2
 
 
 def _conditions(
