@@ -151,8 +151,17 @@ def _leaning(vertices: list[Point]) -> tuple[frozenset[int], frozenset[int]]:
     """(nearly level, nearly upright) sides, each by its first vertex."""
     sides = _sides(vertices)
     leans = [_lean(side) for side in sides]
+    shared, _ = _directions(sides, frozenset(), frozenset())
     exact = any(abs(lean) * hypot(*side) <= RULE.exact for (lean, _), side in zip(leans, sides, strict=True))
     most = RULE.lean_beside_exact if exact else RULE.lean
+    # Sides that belong together lean together: one side of a box that stands aslant is not level by itself.
+    for name in {one[0] for one in shared if one is not None}:
+        own = [(side, one[1]) for side, one in zip(sides, shared, strict=True) if one and one[0] == name]
+        mean = _mean_direction(own)
+        for k, one in enumerate(shared):
+            if one and one[0] == name:
+                angle = mean + (pi / 2 if one[1] else 0.0)
+                leans[k] = _lean((cos(angle), sin(angle)))
     level = frozenset(k for k, (lean, across) in enumerate(leans) if lean <= most and across)
     upright = frozenset(k for k, (lean, across) in enumerate(leans) if lean <= most and not across)
     return level, upright
