@@ -7,18 +7,19 @@ gets a default; what it says and cannot be is left out. Either way a notice tell
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import inf
 
 from physics.formula.meaning import GRAVITY, Meanings, read
-from physics.formula.names import constant_of, lookup, mass_of
+from physics.formula.names import constant_of, lookup
+from physics.infer import act
 from physics.parts.courses import courses_of
-from physics.parts.forces import forces_of
-from physics.parts.given import Page, to_metres
+from physics.parts.given import Page, spoken, to_metres
 from physics.parts.links import links_of
-from physics.parts.solids import body_of, centre_of, solids_of
+from physics.parts.solids import Figure, body_of, solids_of
 from physics.scene import Scene
-from sketch.page import Component, Sketch
-from sketch.shapes import Circle, Polygon
+from sketch.page import Sketch
+from sketch.shapes import Polygon
 
 __all__ = ["Built", "build", "to_metres"]
 
@@ -31,19 +32,26 @@ class Built:
     notices: tuple[str, ...]
 
 
-def build(sketch: Sketch) -> Built:
+def build(sketch: Sketch, meanings: Meanings | None = None) -> Built:
     """The scene of a page. Never raises for what a page may hold: what cannot be is left out, and
-    a notice says so."""
-    meanings = read(sketch)
+    a notice says so. meanings: what the page says, if it has been read already."""
+    meanings = read(sketch) if meanings is None else meanings
     notices = list(meanings.notices)
     g = _gravity(sketch, meanings, notices)
     solids = solids_of(sketch, notices)
     page = _page(sketch, meanings, solids, g, notices)
-    courses = [course for part in solids for course in courses_of(page, part)]
-    bodies = tuple(body_of(page, part, courses) for part in solids)
+    courses = [
+        course
+        for figure in solids
+        if figure.part.label in page.spoken.own
+        for course in courses_of(page, figure.part)
+    ]
+    bodies = tuple(body_of(page, figure, courses) for figure in solids)
     springs, wires = links_of(page, {body.label: body for body in bodies})
-    forces, supports = forces_of(page, bodies)
-    scene = Scene(bodies, springs, wires, forces, supports, (0.0, -g), courses=tuple(courses))
+    acting = act(page, bodies)
+    scene = Scene(
+        acting.bodies, springs, wires, acting.forces, acting.supports, (0.0, -g), courses=tuple(courses)
+    )
     return Built(scene, tuple(dict.fromkeys(notices)))
 
 
@@ -60,14 +68,15 @@ def _gravity(sketch: Sketch, meanings: Meanings, notices: list[str]) -> float:
     return value
 
 
-def _page(
-    sketch: Sketch, meanings: Meanings, solids: Sequence[Component], g: float, notices: list[str]
-) -> Page:
+def _page(sketch: Sketch, meanings: Meanings, solids: Sequence[Figure], g: float, notices: list[str]) -> Page:
+    by_component = spoken(meanings)
     masses: dict[str, float] = {}
     starts: dict[str, tuple[float, float]] = {}
-    for part in solids:
-        assert isinstance(part.shape, Circle | Polygon)
-        masses[part.label], notice = mass_of(sketch, meanings, part)
+    for figure in solids:
+        part = figure.part
+        if figure.filled == inf:
+            part = replace(part, shape=Polygon(figure.corners))
+        masses[part.label], notice = by_component.mass(sketch, part)
         notices += [] if notice is None else [notice]
-        starts[part.label] = centre_of(part.shape)
-    return Page(sketch, meanings, masses, starts, g, notices)
+        starts[part.label] = to_metres(figure.centre)
+    return Page(sketch, meanings, masses, starts, g, notices, by_component)

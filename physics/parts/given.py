@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from physics.formula.meaning import PER_METRE, Meanings, Role, Said
-from physics.formula.names import constant_of, lookup, solid_of
+from physics.formula.names import constant_of, lookup, mass_of, solid_of
 from physics.formula.program import STATE, Lookup, Node, Program, ProgramError, compile_tree
 from physics.scene import Vector
 from sketch.page import Component, Sketch
@@ -22,9 +22,38 @@ def to_metres(point: Point) -> Vector:
 
 
 @dataclass(frozen=True, slots=True)
+class Spoken:
+    """What is said of each component, sorted by component, so that the many of which nothing is said cost nothing."""
+
+    meanings: Meanings
+    own: Mapping[str | None, Meanings]
+
+    def of(self, part: Component, role: Role) -> Said | None:
+        """The newest that is said of a component in this role."""
+        own = self.own.get(part.label)
+        return None if own is None else own.of(part.label, role, part.kind)
+
+    def mass(self, sketch: Sketch, part: Component) -> tuple[float, str | None]:
+        """(kg, a notice where what the page says of it cannot be), of a solid."""
+        return mass_of(sketch, self.meanings if self.of(part, "mass") else NOTHING, part)
+
+
+NOTHING = Meanings((), ())
+
+
+def spoken(meanings: Meanings) -> Spoken:
+    """A page's meanings, sorted by component."""
+    found: dict[str | None, list[Said]] = {}
+    for said in meanings.said:
+        found.setdefault(said.component, []).append(said)
+    return Spoken(meanings, {label: Meanings(tuple(own), ()) for label, own in found.items()})
+
+
+@dataclass(frozen=True, slots=True)
 class Page:
     """A page that is being turned into a scene. masses: kg, and starts: the centre as drawn, m, of every
-    solid that moves or is in the way; g: m/s²; notices: grow as things are found that cannot be."""
+    solid that moves or is in the way; g: m/s²; notices: grow as things are found that cannot be; spoken: its
+    meanings, by component."""
 
     sketch: Sketch
     meanings: Meanings
@@ -32,14 +61,19 @@ class Page:
     starts: Mapping[str, Vector]
     g: float
     notices: list[str]
+    spoken: Spoken
 
     def names(self, label: str) -> Lookup:
         """What names stand for in a component's formulas."""
         return lookup(self.sketch, self.meanings, label, self.masses, self.g)
 
+    def said(self, part: Component, role: Role) -> Said | None:
+        """The newest that is said of a component in this role."""
+        return self.spoken.of(part, role)
+
     def constant(self, part: Component, role: Role, low: float, high: float, must: str) -> float | None:
         """A constant that the page gives a component, None when it gives none that can be."""
-        said = self.meanings.of(part.label, role, part.kind)
+        said = self.said(part, role)
         return None if said is None else self.value(said, part.label, low, high, must)
 
     def value(self, said: Said, label: str, low: float, high: float, must: str) -> float | None:

@@ -7,6 +7,7 @@ from math import hypot
 from typing import assert_never
 
 from physics.formula.meaning import PER_METRE
+from physics.infer import RULE as INFERENCE
 from physics.parts.given import Page, to_metres
 from physics.scene import Anchor, Body, SpringLink, WireLink
 from sketch.page import Component
@@ -15,13 +16,10 @@ from sketch.shapes import Arrow, Circle, Point, Polygon, Spring, Wire
 
 @dataclass(frozen=True, slots=True)
 class LinkRule:
-    """What a link is where the page says nothing (row M1), and how true a given tension must be."""
+    """What a link is where the page says nothing (row M1)."""
 
     stiffness: float = 50.0
     """N/m: a kilogram stretches such a spring by 20 units."""
-    yields: float = 0.05
-    """Share of its length by which a wire under a given tension may be off before it breaks: it
-    forgives a tension rounded to two digits (5√2 as 7.1), not one that is 15 % wrong."""
 
 
 RULE = LinkRule()
@@ -69,9 +67,9 @@ def _link(
             part, "stiffness", 0.0, 1e9, "a stiffness must be a number, and not below zero"
         )
         return SpringLink(part.label, start, end, rest, RULE.stiffness if stiffness is None else stiffness)
-    said = page.meanings.of(part.label, "tension", "wire")
+    said = page.said(part, "tension")
     tension = None if said is None else page.program(said, part.label, said.tree)
-    return WireLink(part.label, start, end, rest, tension, RULE.yields * rest)
+    return WireLink(part.label, start, end, rest, tension, INFERENCE.yields * rest)
 
 
 def _anchor(place: Point, body: Body | None) -> Anchor:

@@ -4,21 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import hypot
-
-import numpy as np
+from itertools import pairwise
+from math import hypot, inf
 
 from physics.formula.meaning import PER_METRE, Said
 from physics.formula.names import constant_of
 from physics.formula.program import ProgramError
 from physics.formula.vectors import split
 from physics.parts.courses import moves
-from physics.parts.given import Page, to_metres
-from physics.scene import Block, Body, Course, Disc, Material, Vector, block_inertia, disc_inertia
-from sketch.geometry import centroid, signed_area, solid_area
-from sketch.ink import FloatArray
+from physics.parts.given import Page
+from physics.scene import Block, Body, Course, Disc, Material, block_inertia, disc_inertia
 from sketch.page import Component, Sketch
-from sketch.shapes import Circle, Point, Polygon, Solid
+from sketch.shapes import Circle, Point, Polygon
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,27 +29,39 @@ class SolidRule:
 RULE = SolidRule()
 
 
-def solids_of(sketch: Sketch, notices: list[str]) -> list[Component]:
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A component that has a body. corners: of a polygon's convex hull, page units, anti-clockwise to the eye, ()
+    for a circle; centre: of mass, page units; filled: the hull's area over the polygon's own, infinite
+    where it crosses itself so that it has none."""
+
+    part: Component
+    corners: tuple[Point, ...]
+    centre: Point
+    filled: float = 1.0
+
+
+def solids_of(sketch: Sketch, notices: list[str]) -> list[Figure]:
     """The components that have a body."""
-    found: list[Component] = []
+    found: list[Figure] = []
     for part in sketch.components:
-        if isinstance(part.shape, Polygon) and solid_area(Polygon(hull(part.shape.vertices))) < RULE.thin:
-            notices.append(f"{part.label} encloses no area; it is not part of the motion.")
-        elif isinstance(part.shape, Circle | Polygon):
-            found.append(part)
+        if isinstance(part.shape, Circle):
+            found.append(Figure(part, (), part.shape.centre))
+        elif isinstance(part.shape, Polygon):
+            drawn: list[Point] = [(x, y) for x, y in part.shape.vertices.tolist()]
+            corners = hull(drawn)
+            area, centre = _area_and_centre(corners)
+            if area < RULE.thin:
+                notices.append(f"{part.label} encloses no area; it is not part of the motion.")
+            else:
+                own = _area_and_centre(drawn)[0]
+                found.append(Figure(part, tuple(corners), centre, area / own if own >= RULE.thin else inf))
     return found
 
 
-def centre_of(shape: Solid) -> Vector:
-    """The centre of mass, m."""
-    if isinstance(shape, Circle):
-        return to_metres(shape.centre)
-    middle = centroid(hull(shape.vertices))
-    return to_metres((float(middle[0]), float(middle[1])))
-
-
-def body_of(page: Page, part: Component, courses: Sequence[Course]) -> Body:
+def body_of(page: Page, figure: Figure, courses: Sequence[Course]) -> Body:
     """The body of a component, at rest or as the page says. courses: of all bodies."""
+    part = figure.part
     mass, centre = page.masses[part.label], page.starts[part.label]
     material = Material(
         page.constant(part, "restitution", 0.0, 1.0, "a coefficient of restitution lies between 0 and 1"),
@@ -64,11 +73,10 @@ def body_of(page: Page, part: Component, courses: Sequence[Course]) -> Body:
         disc = Disc(part.shape.radius / PER_METRE)
         inertia = disc_inertia(mass, disc.radius)
         return Body(part.label, disc, centre, mass, inertia, 0.0, part.fixed, velocity, material)
-    assert isinstance(part.shape, Polygon)
-    vertices = hull(part.shape.vertices)
-    if abs(signed_area(vertices)) > 1.001 * abs(signed_area(part.shape.vertices)):
+    if figure.filled > 1.001:
         page.notices.append(f"{part.label} is not convex; it moves as if its hollows were filled.")
-    local = tuple((float(x) / PER_METRE, -float(y) / PER_METRE) for x, y in vertices - centroid(vertices))
+    cx, cy = figure.centre
+    local = tuple(((x - cx) / PER_METRE, (cy - y) / PER_METRE) for x, y in figure.corners)
     inertia = block_inertia(mass, local)
     return Body(part.label, Block(local), centre, mass, inertia, 0.0, part.fixed, velocity, material)
 
@@ -78,7 +86,7 @@ def _velocity(page: Page, part: Component, courses: dict[str, Course]) -> tuple[
     equation begins as that says."""
     must = "a velocity must be a number"
     x = y = 0.0
-    said = page.meanings.of(part.label, "velocity", part.kind)
+    said = page.said(part, "velocity")
     if said is not None and not moves(page, part, said):
         try:
             pair = split(said.tree)
@@ -97,7 +105,7 @@ def _velocity(page: Page, part: Component, courses: dict[str, Course]) -> tuple[
             ]
             x, y = (0.0 if value is None else value for value in parts)
     for role in ("v_x", "v_y"):
-        said = page.meanings.of(part.label, role, part.kind)
+        said = page.said(part, role)
         if said is None or moves(page, part, said):
             continue
         value = page.value(said, part.label, -1e6, 1e6, must)
@@ -110,10 +118,10 @@ def _velocity(page: Page, part: Component, courses: dict[str, Course]) -> tuple[
     return x, y, page.constant(part, "spin", -1e6, 1e6, "an angular velocity must be a number") or 0.0
 
 
-def hull(vertices: FloatArray) -> FloatArray:
-    """The convex hull, (k, 2), anti-clockwise to the eye, no vertex on a straight edge; (n, 2) as they
-    are where they enclose nothing. Andrew's monotone chain."""
-    points = sorted({(float(x), float(y)) for x, y in vertices})
+def hull(vertices: list[Point]) -> list[Point]:
+    """The convex hull, anti-clockwise to the eye from the leftmost, no vertex on a straight edge, whichever way the
+    vertices run; the vertices as they are where they enclose nothing. Andrew's monotone chain."""
+    points = sorted(set(vertices))
     if len(points) < 3:
         return vertices
     chains: list[list[Point]] = []
@@ -128,5 +136,22 @@ def hull(vertices: FloatArray) -> FloatArray:
                 chain.pop()
             chain.append((x, y))
         chains.append(chain[:-1])
-    hull = np.array(chains[0] + chains[1])
-    return hull if len(hull) >= 3 else vertices
+    found = chains[0] + chains[1]
+    return found if len(found) >= 3 else vertices
+
+
+def _area_and_centre(corners: list[Point]) -> tuple[float, Point]:
+    """(area, centre of area) of a simple polygon; the mean corner where it has no area. Measured from a corner,
+    so that a page's size costs no digits."""
+    x0, y0 = corners[0]
+    twice = cx = cy = 0.0
+    for (x1, y1), (x2, y2) in pairwise([*corners, corners[0]]):
+        ax, ay, bx, by = x1 - x0, y1 - y0, x2 - x0, y2 - y0
+        cross = ax * by - ay * bx
+        twice += cross
+        cx += cross * (ax + bx)
+        cy += cross * (ay + by)
+    if twice == 0:
+        count = len(corners)
+        return 0.0, (sum(x for x, _ in corners) / count, sum(y for _, y in corners) / count)
+    return abs(twice) / 2, (x0 + cx / (3 * twice), y0 + cy / (3 * twice))

@@ -1,27 +1,36 @@
 """C5: a spring or a wire gets the angle that the page says it has.
 
 An angle tapped nearer to the link's top end is measured from the vertical, nearer to its bottom
-end from the horizontal. Which end gives way is chosen so that the motion is changed least:
+end from the horizontal. The link turns about one of its ends; which end gives way is chosen so that the motion
+is changed least:
 
-- a body that hangs from this link alone follows it about the fixed end, as a bob does;
-- a body that several links hold stays where it is, or correcting one wire would slacken the
-  other: there the end at the fixed block slides along the block's boundary (the wire's length
-  changes), and where the wire would miss the block, the block itself follows. A block is
-  scenery: where exactly it stands changes nothing that anybody asked.
+- a body that hangs from this link alone, and rests on nothing, follows it about the other end, as a bob does,
+  and what hangs from that body follows in turn;
+- an end that is attached to nothing goes where the angle wants it;
+- a body that several links hold, or that rests on something, stays where it is, or correcting one
+  wire would slacken another: there the end at the fixed block slides along the block's boundary
+  (the wire's length changes), and where the wire would miss the block, the block itself follows, as far as it
+  must. A block is scenery: where exactly it stands changes nothing that anybody asked.
+
+Where two links share such a block, correcting one turns the other; they are corrected in turns until
+both are right, each time by the smallest shift, which leads to where their two lines meet.
 
 Page units, y down.
 """
 
 from __future__ import annotations
 
+from collections.abc import Container, Mapping
 from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, pi, sin
 
-from physics.formula.meaning import GRAVITY, Meanings
+from physics.formula.meaning import GRAVITY
 from physics.formula.names import constant_of, lookup
-from physics.rectify.correction import Rectified, changes, moved, reshaped, shift, turn
+from physics.parts.given import Spoken
+from physics.rectify.contacts import Touching
+from physics.rectify.correction import Correction, Step, hangs, reshaped, shift, taken_along, turn
 from sketch.page import Component, Sketch
-from sketch.shapes import Circle, Point, Polygon, Solid, Spring, Wire
+from sketch.shapes import Circle, Point, Polygon, Shape, Solid, Spring, Wire
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,87 +41,139 @@ class AngleRule:
     """Radians: an angle this near is left alone."""
     slide: float = 0.35
     """Share of the link's length by which its end may slide along a block; beyond, the block follows."""
+    rounds: int = 100
+    """Over all links: two that share a block and meet at 20 degrees need 90 turns for 1e-10."""
 
 
 RULE = AngleRule()
 
 
-def aim(sketch: Sketch, meanings: Meanings) -> Rectified:
-    """C5 on every spring and wire that an angle is said of."""
+@dataclass(frozen=True, slots=True)
+class LinkAngle:
+    """A link's angle, radians, as measured from the vertical (steep) or from the horizontal."""
+
+    angle: float
+    steep: bool
+
+    def direction(self, dx: float, dy: float) -> Point:
+        """The unit direction that has this angle, nearest in sense to (dx, dy)."""
+        level, rise = (sin(self.angle), cos(self.angle)) if self.steep else (cos(self.angle), sin(self.angle))
+        return (level if dx >= 0 else -level), (rise if dy >= 0 else -rise)
+
+
+def angle_of(sketch: Sketch, spoken: Spoken, part: Component) -> LinkAngle | None:
+    """What the page says of a link's angle, None where it says nothing that can be."""
+    said = spoken.of(part, "angle")
+    if said is None or said.anchor is None or not isinstance(part.shape, Spring | Wire):
+        return None
+    angle = constant_of(said, lookup(sketch, spoken.meanings, part.label, {}, GRAVITY))
+    if angle is None or not 0 <= angle <= pi / 2:
+        return None
+    top, bottom = sorted((part.shape.start, part.shape.end), key=lambda end: end[1])
+    x, y = said.anchor
+    return LinkAngle(angle, hypot(x - top[0], y - top[1]) < hypot(x - bottom[0], y - bottom[1]))
+
+
+def aim(
+    sketch: Sketch, drawn: Sketch, spoken: Spoken, touching: Touching, skipped: Container[str] = ()
+) -> Step:
+    """C5 on every spring and wire that an angle is said of, but those skipped. drawn: the page on which the angles
+    were tapped."""
+    wanted: dict[str, LinkAngle] = {}
+    for part in drawn.components:
+        joins = part.ends[0] is None or part.ends[0] != part.ends[1]  # one within a single body cannot turn
+        if part.label not in skipped and joins and isinstance(part.shape, Spring | Wire):
+            said = angle_of(drawn, spoken, part)
+            if said is not None:
+                wanted[part.label] = said
     after = sketch
-    for part in sketch.components:
-        said = meanings.of(part.label, "angle", part.kind) if isinstance(part.shape, Spring | Wire) else None
-        if said is None or said.anchor is None:
-            continue
-        angle = constant_of(said, lookup(sketch, meanings, part.label, {}, GRAVITY))
-        if angle is not None and 0 <= angle <= pi / 2:
-            after = _aimed(after, part.label, angle, said.anchor)
-    return Rectified(after, changes("C5", _why, sketch, after))
+    causes: dict[str, str] = {}
+    for _ in range(RULE.rounds):
+        before = after
+        for label, said in sorted(wanted.items()):
+            if abs(_off(after, label, said)) <= RULE.exact:
+                continue
+            held = frozenset(touching())
+            shapes = _aimed(after, label, said, held)
+            after = reshaped(after, shapes)
+            causes |= dict.fromkeys(shapes, label) | {label: label}
+        if after is before:
+            break
+    return Step(after, _corrections(sketch, after, causes))
 
 
-def _why(part: Component) -> str:
-    if isinstance(part.shape, Spring | Wire):
-        return f"{part.label}: it is given the angle that the page says it has."
-    return f"{part.label}: it follows a link that was given its angle."
+def _corrections(before: Sketch, after: Sketch, causes: Mapping[str, str]) -> tuple[Correction, ...]:
+    """One correction for each component that has changed, that of a link before those of what follows it."""
+    found: list[Correction] = []
+    for old, new in zip(before.components, after.components, strict=True):
+        if old.shape != new.shape:
+            cause = causes[old.label]
+            own = f"{old.label}: it is given the angle that the page says it has."
+            follows = f"{old.label}: it follows {cause}, which is given its angle."
+            why = own if cause == old.label else follows
+            found.append(Correction("C5", old.label, why, old.shape, new.shape, cause))
+    return tuple(sorted(found, key=lambda one: (one.cause, one.component != one.cause, one.component)))
 
 
-def _aimed(sketch: Sketch, label: str, angle: float, anchor: Point) -> Sketch:
+def _off(sketch: Sketch, label: str, said: LinkAngle) -> float:
+    """By how much a link must be turned, radians."""
+    shape = sketch.component(label).shape
+    assert isinstance(shape, Spring | Wire)
+    dx, dy = shape.end[0] - shape.start[0], shape.end[1] - shape.start[1]
+    ux, uy = said.direction(dx, dy)
+    return atan2(dx * uy - dy * ux, dx * ux + dy * uy)
+
+
+def _aimed(sketch: Sketch, label: str, said: LinkAngle, held: Container[str]) -> dict[str, Shape]:
+    """New shapes of a link with its angle, and of what follows it."""
     part = sketch.component(label)
     shape = part.shape
     assert isinstance(shape, Spring | Wire)
-    kept, yielding = _roles(sketch, part)
-    fixed_end, moving_end = (shape.start, shape.end) if kept == 0 else (shape.end, shape.start)
-    dx, dy = moving_end[0] - fixed_end[0], moving_end[1] - fixed_end[1]
+    yielding = _yielding(sketch, part, held)
+    still, end = (shape.end, shape.start) if yielding == 0 else (shape.start, shape.end)
+    dx, dy = end[0] - still[0], end[1] - still[1]
     length = hypot(dx, dy)
-    top, bottom = sorted((shape.start, shape.end), key=lambda end: end[1])
-    near_top = hypot(anchor[0] - top[0], anchor[1] - top[1]) < hypot(
-        anchor[0] - bottom[0], anchor[1] - bottom[1]
-    )
-    level, rise = (sin(angle), cos(angle)) if near_top else (cos(angle), sin(angle))
-    ux, uy = (level if dx >= 0 else -level), (rise if dy >= 0 else -rise)
-    off = atan2(dx * uy - dy * ux, dx * ux + dy * uy)
-    if abs(off) <= RULE.exact:
-        return sketch
+    ux, uy = said.direction(dx, dy)
+    goal = (still[0] + length * ux, still[1] + length * uy)
     holder = part.ends[yielding]
     if holder is None:
-        return _with_end(sketch, part, yielding, (fixed_end[0] + length * ux, fixed_end[1] + length * uy))
+        return _with_end(part, yielding, goal)
     solid = sketch.component(holder)
     assert isinstance(solid.shape, Circle | Polygon)
-    if solid.fixed or _held_by_several(sketch, holder):
-        hit = _first_hit(solid.shape, fixed_end, (ux, uy))
-        if hit is not None and hypot(hit[0] - moving_end[0], hit[1] - moving_end[1]) <= RULE.slide * length:
-            return _with_end(sketch, part, yielding, hit)
-    if isinstance(solid.shape, Circle):
-        return moved(sketch, holder, turn(fixed_end, off))
-    step = (fixed_end[0] + length * ux - moving_end[0], fixed_end[1] + length * uy - moving_end[1])
-    return moved(sketch, holder, shift(*step))
+    if hangs(sketch, holder, label, held):
+        place = turn(still, atan2(dx * uy - dy * ux, dx * ux + dy * uy))
+        if isinstance(solid.shape, Polygon):
+            place = shift(goal[0] - end[0], goal[1] - end[1])
+        return taken_along(sketch, {holder: place}, held)
+    hit = _first_hit(solid.shape, still, (ux, uy))
+    if hit is not None and hypot(hit[0] - end[0], hit[1] - end[1]) <= RULE.slide * length:
+        return _with_end(part, yielding, hit)
+    along = dx * ux + dy * uy
+    nearest = shift(still[0] + along * ux - end[0], still[1] + along * uy - end[1])
+    return taken_along(sketch, {holder: nearest}, held)
 
 
-def _roles(sketch: Sketch, part: Component) -> tuple[int, int]:
-    """(which end stays, which gives way): 0 the start, 1 the end."""
-    free = [_follows(sketch, label) for label in part.ends]
-    if free[0] != free[1]:
-        return (1, 0) if free[0] else (0, 1)
-    # Neither end's body can simply follow: what is fixed gives way, for what several links hold stays.
-    stays = [label is not None and not sketch.component(label).fixed for label in part.ends]
-    return (1, 0) if stays[1] and not stays[0] else (0, 1)
+def _yielding(sketch: Sketch, part: Component, held: Container[str]) -> int:
+    """Which end gives way: 0 the start, 1 the end. Of two alike the lower one, then the right one: which of
+    them was drawn first says nothing."""
+    assert isinstance(part.shape, Spring | Wire)
+
+    def firmness(label: str | None) -> int:
+        if label is None:
+            return 1
+        if sketch.component(label).fixed:
+            return 2
+        return 0 if hangs(sketch, label, part.label, held) else 3
+
+    one, other = firmness(part.ends[0]), firmness(part.ends[1])
+    (x1, y1), (x2, y2) = part.shape.start, part.shape.end
+    return 0 if (one, -y1, -x1) < (other, -y2, -x2) else 1
 
 
-def _follows(sketch: Sketch, label: str | None) -> bool:
-    """Whether a body hangs from one link only."""
-    return label is not None and not sketch.component(label).fixed and not _held_by_several(sketch, label)
-
-
-def _held_by_several(sketch: Sketch, label: str) -> bool:
-    return sum(label in part.ends for part in sketch.components) > 1
-
-
-def _with_end(sketch: Sketch, part: Component, which: int, place: Point) -> Sketch:
+def _with_end(part: Component, which: int, place: Point) -> dict[str, Shape]:
     assert isinstance(part.shape, Spring | Wire)
     start, end = (place, part.shape.end) if which == 0 else (part.shape.start, place)
-    return (
-        sketch if start == end else reshaped(sketch, {part.label: replace(part.shape, start=start, end=end)})
-    )
+    return {} if start == end else {part.label: replace(part.shape, start=start, end=end)}
 
 
 def _first_hit(solid: Solid, origin: Point, direction: Point) -> Point | None:

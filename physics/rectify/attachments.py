@@ -7,12 +7,13 @@ boundary already is where it is meant to be. Page units.
 
 from __future__ import annotations
 
+from collections.abc import Container
 from dataclasses import dataclass, replace
 from math import hypot, radians, sin
 
-from physics.rectify.correction import Rectified, changes, reshaped
-from sketch.geometry import nearest_on_boundary
-from sketch.page import Component, Sketch
+from physics.rectify.correction import Correction, Step, correction, reshaped
+from physics.rectify.separation import nearest, outline_of
+from sketch.page import Sketch
 from sketch.shapes import Circle, Point, Polygon, Shape, Solid, Spring, Wire
 
 
@@ -33,23 +34,22 @@ class AttachmentRule:
 RULE = AttachmentRule()
 
 
-def attach(sketch: Sketch) -> Rectified:
-    """C4 on every spring and wire of the page."""
+def attach(sketch: Sketch, skipped: Container[str] = ()) -> Step:
+    """C4 on every spring and wire of the page but those skipped."""
     shapes: dict[str, Shape] = {}
+    corrections: list[Correction] = []
+    why = "its ends are put on the boundary of what they are attached to"
     for part in sketch.components:
-        if isinstance(part.shape, Spring | Wire):
+        if isinstance(part.shape, Spring | Wire) and part.label not in skipped:
             start, end = part.shape.start, part.shape.end
             holders = [_holder(sketch, label) for label in part.ends]
             new_start = start if holders[0] is None else _clipped(holders[0], start, end)
             new_end = end if holders[1] is None else _clipped(holders[1], end, start)
             if (new_start, new_end) != (start, end) and new_start != new_end:
-                shapes[part.label] = replace(part.shape, start=new_start, end=new_end)
-    after = reshaped(sketch, shapes)
-    return Rectified(after, changes("C4", _why, sketch, after))
-
-
-def _why(part: Component) -> str:
-    return f"{part.label}: its ends are put on the boundary of what they are attached to."
+                shape = shapes[part.label] = replace(part.shape, start=new_start, end=new_end)
+                before: dict[str, Shape] = {part.label: part.shape}
+                corrections += correction("C4", part.label, before, {part.label: shape}, why, why)
+    return Step(reshaped(sketch, shapes), tuple(corrections))
 
 
 def _holder(sketch: Sketch, label: str | None) -> Solid | None:
@@ -58,11 +58,11 @@ def _holder(sketch: Sketch, label: str | None) -> Solid | None:
 
 
 def _clipped(solid: Solid, end: Point, other: Point) -> Point:
-    foot = nearest_on_boundary(solid, end)
+    foot = nearest(outline_of(solid), end)
     if hypot(foot[0] - end[0], foot[1] - end[1]) <= RULE.exact:
         return end
     if isinstance(solid, Circle):
-        facing = nearest_on_boundary(solid, other)
+        facing = nearest(outline_of(solid), other)
         near = 2 * solid.radius * sin(RULE.facing / 2)
         return facing if hypot(foot[0] - facing[0], foot[1] - facing[1]) <= near else foot
     return _vertex_near(solid, foot) or foot

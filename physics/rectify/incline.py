@@ -1,27 +1,51 @@
 """C3: the angle of an incline becomes the angle that the page says it has.
 
-A triangle with a right angle keeps its base; the corner above the right angle is moved so that
-the long side rises by θ: to the height (length of the base) · tan θ. What rests on the long
-side is turned along with it about the foot, and so keeps its contact and its distance from the
-foot. Page units, y down; the angle is that at the foot, whichever way the incline rises.
+Let a right-angled triangle have the base p0 p1, from left to right, and its third vertex p2 above
+the right angle. (i) Uphill: the right angle is at p1; p0 is kept, u is the unit direction from p0 to p1, and
+v is u turned by θ towards p2. (ii) Downhill: the right angle is at p0; p1 is kept, u is the unit direction from p1
+to p0, and v is u turned by θ towards p2. In both, the new p2 lies on the ray of direction v from the vertex
+that is kept, straight above the right angle, which is where its way along the base is the base's length:
+
+    (s v) · u = |p0 − p1|,  so  s = |p0 − p1| / (v · u) = |p0 − p1| / cos θ.
+
+(The published formula squares the numerator, which is an area over a number, and no distance.) The corner
+is exactly a right angle afterwards, whichever way the base lies.
+
+What rests on the long side is turned with it about the vertex that is kept: it keeps its contact and its place
+along the side. So does what rests on that, and so on; what hangs from them by a link follows without turning.
+Links that end on the triangle's boundary stay where they are on it, and a fixed ball at the top (a pulley, a
+peg) goes with the top.
+
+Page units, y down; the angle is that at the kept vertex, the foot, whichever way the incline rises.
 """
 
 from __future__ import annotations
 
+from collections.abc import Container, Mapping
 from dataclasses import dataclass
 from itertools import combinations
-from math import atan2, hypot, pi, radians, tan
+from math import atan2, cos, hypot, pi, radians, sin
 
-import numpy as np
-
-from physics.formula.meaning import GRAVITY, Meanings
+from physics.formula.meaning import GRAVITY
 from physics.formula.names import constant_of, lookup
-from physics.rectify.contacts import meant_to_touch
-from physics.rectify.correction import Rectified, changes, moved, reshaped, turn
+from physics.parts.given import Spoken
+from physics.rectify.contacts import Touching
+from physics.rectify.correction import (
+    Correction,
+    Place,
+    Step,
+    correction,
+    reshaped,
+    shapes_of,
+    shift,
+    taken_along,
+    turn,
+)
 from physics.rectify.separation import apart
 from sketch.geometry import signed_area
-from sketch.page import Component, Sketch
-from sketch.shapes import Circle, Point, Polygon
+from sketch.ink import FloatArray
+from sketch.page import Sketch
+from sketch.shapes import Circle, Point, Polygon, Shape
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +64,8 @@ class InclineRule:
     """Of these a triangle is looked for: a polygon of more corners is none with one blunted."""
     facing: float = radians(20)
     """Radians between the long side's normal and the direction to what rests on it."""
+    top: float = 12.0
+    """Page units from the top to the boundary of a fixed ball that goes with it."""
 
 
 RULE = InclineRule()
@@ -86,69 +112,116 @@ def triangle_in(shape: Polygon) -> Polygon:
     return Polygon(shape.vertices[list(best)]) if area >= RULE.whole * whole else shape
 
 
-def tilt(sketch: Sketch, meanings: Meanings) -> Rectified:
-    """C3 on every right-angled triangle that an angle is said of."""
+def raised(foot: Point, corner: Point, top: Point, angle: float) -> Point:
+    """The new top p2: seen from the foot at `angle` (radians) over the base, straight above the corner, on
+    the side where the top was; 0 < angle < π/2."""
+    bx, by = corner[0] - foot[0], corner[1] - foot[1]
+    base = hypot(bx, by)
+    ux, uy = bx / base, by / base
+    side = 1.0 if ux * (top[1] - corner[1]) - uy * (top[0] - corner[0]) > 0 else -1.0
+    vx = cos(angle) * ux - side * sin(angle) * uy
+    vy = cos(angle) * uy + side * sin(angle) * ux
+    distance = base / (vx * ux + vy * uy)
+    return foot[0] + distance * vx, foot[1] + distance * vy
+
+
+def tilt(sketch: Sketch, spoken: Spoken, touching: Touching, skipped: Container[str] = ()) -> Step:
+    """C3 on every right-angled triangle that an angle is said of, but those skipped."""
     after = sketch
+    corrections: list[Correction] = []
     for part in sketch.components:
-        said = meanings.of(part.label, "angle", "polygon") if isinstance(part.shape, Polygon) else None
-        if said is None:
+        if part.label in skipped or not isinstance(part.shape, Polygon):
             continue
-        angle = constant_of(said, lookup(sketch, meanings, part.label, {}, GRAVITY))
+        said = spoken.of(part, "angle")
+        angle = None
+        if said is not None:
+            angle = constant_of(said, lookup(sketch, spoken.meanings, part.label, {}, GRAVITY))
         if angle is not None and RULE.flattest <= angle <= pi / 2 - RULE.flattest:
-            after = _tilted(after, part.label, angle)
-    return Rectified(after, changes("C3", _why, sketch, after))
+            why = "its incline is given the angle that the page says it has"
+            follows = f"it keeps its place on {part.label}, whose incline is given its angle"
+            shapes = _tilted(after, part.label, angle, touching)
+            corrections += correction("C3", part.label, shapes_of(after), shapes, why, follows)
+            after = reshaped(after, shapes)
+    return Step(after, tuple(corrections))
 
 
-def _why(part: Component) -> str:
-    if isinstance(part.shape, Polygon) and incline_of(triangle_in(part.shape)) is not None:
-        return f"{part.label}: its incline is given the angle that the page says it has."
-    return f"{part.label}: it keeps its place on an incline that was given its angle."
-
-
-def _tilted(sketch: Sketch, label: str, angle: float) -> Sketch:
+def _tilted(sketch: Sketch, label: str, angle: float, touching: Touching) -> dict[str, Shape]:
+    """New shapes of the incline and of all that goes with it; none where its angle is right already."""
     drawn = sketch.component(label).shape
     assert isinstance(drawn, Polygon)
     shape = triangle_in(drawn)
     found = incline_of(shape)
     if found is None:
-        return sketch
-    foot, corner, top = (shape.vertices[k] for k in (found.foot, found.corner, found.top))
-    base = foot - corner
-    length = hypot(base[0], base[1])
-    across = np.array([-base[1], base[0]]) / length
-    across = across if across @ (top - corner) > 0 else -across
-    new = corner + length * tan(angle) * across
-    by = _direction(new - foot) - _direction(top - foot)
+        return {}
+    foot, corner, top = (_point(shape.vertices[k]) for k in (found.foot, found.corner, found.top))
+    new = raised(foot, corner, top, angle)
+    by = _direction(foot, new) - _direction(foot, top)
     by = (by + pi) % (2 * pi) - pi
-    if abs(by) <= RULE.exact:
-        return sketch if shape is drawn else reshaped(sketch, {label: shape})
+    slant = hypot(top[0] - foot[0], top[1] - foot[1])
+    if abs(by) <= RULE.exact and hypot(new[0] - top[0], new[1] - top[1]) <= RULE.exact * slant:
+        return {} if shape is drawn else {label: shape}
     vertices = shape.vertices.copy()
     vertices[found.top] = new
-    about: Point = (float(foot[0]), float(foot[1]))
-    after = reshaped(sketch, {label: Polygon(vertices)})
-    for rider in _riders(sketch, label, shape, top - foot):
-        after = moved(after, rider, turn(about, by))
-    return after
+    places: dict[str, Place] = dict.fromkeys(
+        _riders(sketch, label, shape, foot, top, touching()), turn(foot, by)
+    )
+    for part in sketch.components:
+        if part.fixed and isinstance(part.shape, Circle):
+            x, y = part.shape.centre
+            if abs(hypot(x - top[0], y - top[1]) - part.shape.radius) <= RULE.top:
+                places[part.label] = shift(new[0] - top[0], new[1] - top[1])
+    held = frozenset(touching())
+    # The two sides that meet in the corner span the plane; the top alone moves.
+    shapes = taken_along(sketch, places | {label: _affine(foot, corner, top, new)}, held)
+    return shapes | {label: Polygon(vertices)}
 
 
 def _riders(
-    sketch: Sketch, label: str, shape: Polygon, side: np.ndarray[tuple[int], np.dtype[np.float64]]
+    sketch: Sketch,
+    label: str,
+    shape: Polygon,
+    foot: Point,
+    top: Point,
+    touching: Mapping[str, frozenset[str]],
 ) -> list[str]:
-    """Movable solids that rest on the long side."""
+    """Movable solids that rest on the long side, what rests on those, and so on."""
+    slant = hypot(top[0] - foot[0], top[1] - foot[1])
     riders: list[str] = []
     for part in sketch.components:
-        if part.label == label or part.fixed or not isinstance(part.shape, Circle | Polygon):
+        if part.fixed or part.label not in touching.get(label, ()):
             continue
+        assert isinstance(part.shape, Circle | Polygon)
         _, (x, y) = apart(shape, part.shape)
-        along = abs(x * side[0] + y * side[1]) / hypot(side[0], side[1])
-        if along <= np.sin(RULE.facing) and meant_to_touch(shape, part.shape):
+        along = abs(x * (top[0] - foot[0]) + y * (top[1] - foot[1])) / slant
+        if along <= sin(RULE.facing) and y < 0:
             riders.append(part.label)
+    for rider in riders:  # grows as it goes
+        for other in sorted(touching.get(rider, ())):
+            if other not in riders and not sketch.component(other).fixed:
+                riders.append(other)
     return riders
 
 
-def _steepness(step: np.ndarray[tuple[int], np.dtype[np.float64]]) -> float:
+def _affine(foot: Point, corner: Point, top: Point, new: Point) -> Place:
+    """The map of the plane that keeps foot and corner and brings the top to its new place."""
+    bx, by = corner[0] - foot[0], corner[1] - foot[1]
+    tx, ty = top[0] - foot[0], top[1] - foot[1]
+    twice = bx * ty - by * tx
+
+    def placed(point: Point) -> Point:
+        share = (bx * (point[1] - foot[1]) - by * (point[0] - foot[0])) / twice
+        return point[0] + share * (new[0] - top[0]), point[1] + share * (new[1] - top[1])
+
+    return placed
+
+
+def _steepness(step: FloatArray) -> float:
     return abs(float(step[1])) / (hypot(step[0], step[1]) or 1.0)
 
 
-def _direction(step: np.ndarray[tuple[int], np.dtype[np.float64]]) -> float:
-    return atan2(step[1], step[0])
+def _direction(start: Point, end: Point) -> float:
+    return atan2(end[1] - start[1], end[0] - start[0])
+
+
+def _point(vertex: FloatArray) -> Point:
+    return (float(vertex[0]), float(vertex[1]))

@@ -1,17 +1,71 @@
-"""How far apart two solids are, and which way. Page units, y down; polygons are taken as convex."""
+"""How far apart two solids are, and which way. Page units, y down; polygons are taken as convex.
+
+A solid's `Outline` is its boundary in plain floats, from a first corner and in a sense that do not
+depend on how it was drawn: a page is compared pair by pair, and arrays of four points are slower than
+their arithmetic.
+"""
 
 from __future__ import annotations
 
-from math import hypot
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+from math import hypot, pi, sqrt
 
-import numpy as np
-
-from sketch.geometry import nearest_on_boundary, nearest_on_segment, signed_area, signed_distance
-from sketch.ink import FloatArray
-from sketch.shapes import Circle, Point, Polygon, Solid
+from sketch.shapes import Circle, Point, Solid
 
 FLUSH = 1e-9
 """Page units: nearer than this, the minimum-distance vector has no direction of its own."""
+
+
+@dataclass(frozen=True, slots=True)
+class Outline:
+    """corners: of a block, clockwise to the eye, from the leftmost, () for a disc; normals: outwards, of the
+    side from each corner to the next; centre: a disc's, a block's mean corner; radius: a disc's, or 0;
+    low, high: its box; size: the root of its area."""
+
+    corners: tuple[Point, ...]
+    normals: tuple[Point, ...]
+    centre: Point
+    radius: float
+    low: Point
+    high: Point
+    size: float
+
+    def shifted(self, dx: float, dy: float) -> Outline:
+        """The outline moved by (dx, dy)."""
+        return Outline(
+            tuple((x + dx, y + dy) for x, y in self.corners),
+            self.normals,
+            (self.centre[0] + dx, self.centre[1] + dy),
+            self.radius,
+            (self.low[0] + dx, self.low[1] + dy),
+            (self.high[0] + dx, self.high[1] + dy),
+            self.size,
+        )
+
+
+@lru_cache(maxsize=1024)  # every step of a correction asks for those of all solids
+def outline_of(solid: Solid) -> Outline:
+    """A solid's outline."""
+    if isinstance(solid, Circle):
+        (x, y), r = solid.centre, solid.radius
+        return Outline((), (), (x, y), r, (x - r, y - r), (x + r, y + r), sqrt(pi) * r)
+    drawn: list[Point] = [(x, y) for x, y in solid.vertices.tolist()]
+    twice = sum(x1 * y2 - x2 * y1 for (x1, y1), (x2, y2) in pairwise([*drawn, drawn[0]]))
+    if twice < 0:
+        drawn.reverse()
+    first = drawn.index(min(drawn))
+    corners = tuple(drawn[first:] + drawn[:first])
+    normals: list[Point] = []
+    for (x1, y1), (x2, y2) in pairwise([*corners, corners[0]]):
+        length = hypot(x2 - x1, y2 - y1) or 1e-300
+        normals.append(((y2 - y1) / length, (x1 - x2) / length))
+    xs, ys = [x for x, _ in corners], [y for _, y in corners]
+    centre = (sum(xs) / len(xs), sum(ys) / len(ys))
+    return Outline(
+        corners, tuple(normals), centre, 0.0, (min(xs), min(ys)), (max(xs), max(ys)), sqrt(abs(twice) / 2)
+    )
 
 
 def apart(one: Solid, other: Solid) -> tuple[float, Point]:
@@ -21,62 +75,113 @@ def apart(one: Solid, other: Solid) -> tuple[float, Point]:
     Circles: along the line of centres; otherwise along the minimum-distance vector, or, for an overlap,
     across the face that it takes least to leave by.
     """
-    if isinstance(one, Circle) and isinstance(other, Circle):
-        dx, dy = other.centre[0] - one.centre[0], other.centre[1] - one.centre[1]
-        distance = hypot(dx, dy)
-        direction = (dx / distance, dy / distance) if distance > 0 else (0.0, -1.0)
-        return distance - one.radius - other.radius, direction
-    if isinstance(one, Polygon) and isinstance(other, Polygon):
-        return _blocks(one.vertices, other.vertices)
-    if isinstance(other, Circle):
-        assert isinstance(one, Polygon)
-        return _block_to_circle(one, other)
-    gap, (x, y) = apart(other, one)
-    return gap, (-x, -y)
+    return separation(outline_of(one), outline_of(other))
 
 
-def outward(vertices: FloatArray) -> FloatArray:
-    """Unit normals of the edges, (n, 2), edge k from vertex k to the next."""
-    steps = np.roll(vertices, -1, axis=0) - vertices
-    lengths = np.maximum(np.hypot(steps[:, 0], steps[:, 1]), 1e-300)
-    side = 1.0 if signed_area(vertices) > 0 else -1.0
-    return side * np.column_stack([steps[:, 1], -steps[:, 0]]) / lengths[:, None]
+def separation(one: Outline, other: Outline) -> tuple[float, Point]:
+    """`apart` of two outlines."""
+    if other.corners:
+        if one.corners:
+            return _blocks(one, other)
+        gap, (x, y) = _block_to_disc(other, one)
+        return gap, (-x, -y)
+    if one.corners:
+        return _block_to_disc(one, other)
+    dx, dy = other.centre[0] - one.centre[0], other.centre[1] - one.centre[1]
+    distance = hypot(dx, dy)
+    direction = (dx / distance, dy / distance) if distance > 0 else (0.0, -1.0)
+    return distance - one.radius - other.radius, direction
 
 
-def _block_to_circle(block: Polygon, circle: Circle) -> tuple[float, Point]:
-    distance = signed_distance(block, circle.centre)
-    if distance > FLUSH:
-        foot = nearest_on_boundary(block, circle.centre)
-        x, y = circle.centre[0] - foot[0], circle.centre[1] - foot[1]
-        length = hypot(x, y)
-        return distance - circle.radius, (x / length, y / length)
-    normals = outward(block.vertices)
-    depths = np.einsum("ij,ij->i", normals, np.asarray(circle.centre) - block.vertices)
-    face = int(np.argmax(depths))
-    return float(depths[face]) - circle.radius, (float(normals[face, 0]), float(normals[face, 1]))
+def boxes_apart(one: Outline, other: Outline) -> float:
+    """A lower bound of the gap, quickly: of the boxes around them; negative or zero where those meet."""
+    return max(
+        other.low[0] - one.high[0],
+        one.low[0] - other.high[0],
+        other.low[1] - one.high[1],
+        one.low[1] - other.high[1],
+    )
 
 
-def _blocks(one: FloatArray, other: FloatArray) -> tuple[float, Point]:
-    best, direction = -np.inf, np.array([0.0, -1.0])
+def nearest(outline: Outline, point: Point) -> Point:
+    """The point of a solid's boundary nearest to a point (a disc's centre goes straight up)."""
+    if outline.corners:
+        feet = [_foot(start, end, point) for start, end in _sides(outline.corners)]
+        return min(feet, key=lambda foot: hypot(foot[0] - point[0], foot[1] - point[1]))
+    (cx, cy), radius = outline.centre, outline.radius
+    x, y = point[0] - cx, point[1] - cy
+    distance = hypot(x, y)
+    return (cx + radius * x / distance, cy + radius * y / distance) if distance > 0 else (cx, cy - radius)
+
+
+def _block_to_disc(block: Outline, disc: Outline) -> tuple[float, Point]:
+    (cx, cy), corners = disc.centre, block.corners
+    best, face = -1e300, 0
+    for k, ((x, y), (nx, ny)) in enumerate(zip(corners, block.normals, strict=True)):
+        height = nx * (cx - x) + ny * (cy - y)
+        if height > best:
+            best, face = height, k
+    if best > FLUSH and not _over(block, face, disc.centre):
+        foot_x, foot_y = min(
+            (_foot(one, other, disc.centre) for one, other in _sides(corners)),
+            key=lambda foot: hypot(cx - foot[0], cy - foot[1]),
+        )
+        x, y = cx - foot_x, cy - foot_y
+        distance = hypot(x, y)
+        if distance > 0:  # on the boundary of a hollow it is zero
+            return distance - disc.radius, (x / distance, y / distance)
+    return best - disc.radius, block.normals[face]
+
+
+def _blocks(one: Outline, other: Outline) -> tuple[float, Point]:
+    best, direction, over = -1e300, (0.0, -1.0), False
     for block, seen, sign in ((one, other, 1.0), (other, one, -1.0)):
-        normals = outward(block)
-        gaps = (seen @ normals.T).min(axis=0) - np.einsum("ij,ij->i", normals, block)
-        face = int(np.argmax(gaps))
-        if gaps[face] > best:
-            best, direction = float(gaps[face]), sign * normals[face]
-    if best > FLUSH:
-        step = _nearest(one, other)
-        distance = float(np.hypot(*step))
-        # Face to face the two agree, up to rounding; the face's normal has no rounding in it.
+        for k, ((x, y), (nx, ny)) in enumerate(zip(block.corners, block.normals, strict=True)):
+            heights = [nx * px + ny * py for px, py in seen.corners]
+            lowest = min(heights)
+            gap = lowest - (nx * x + ny * y)
+            # Of two faces that face each other, the one that the other's corner is over tells more.
+            if gap > best or (gap > FLUSH and not over and gap >= best * (1 - 1e-12)):
+                best, direction = max(gap, best), (sign * nx, sign * ny)
+                over = gap > FLUSH and _over(block, k, seen.corners[heights.index(lowest)])
+    if best > FLUSH and not over:
+        x, y = _nearest(one, other)
+        distance = hypot(x, y)
         if distance > best * (1 + 1e-9) + FLUSH:
-            best, direction = distance, step / distance
-    return best, (float(direction[0]), float(direction[1]))
+            return distance, (x / distance, y / distance)
+    return best, direction
 
 
-def _nearest(one: FloatArray, other: FloatArray) -> FloatArray:
-    """The shortest step from a point of `one` to a point of `other`, (2,)."""
-    steps: list[FloatArray] = []
-    for block, points, sign in ((one, other, 1.0), (other, one, -1.0)):
-        for start, end in zip(block, np.roll(block, -1, axis=0), strict=True):
-            steps += [sign * (point - nearest_on_segment(start, end, point)) for point in points]
-    return min(steps, key=lambda step: float(step @ step))
+def _over(block: Outline, face: int, point: Point) -> bool:
+    """Whether a point outside a face lies straight above it: then its distance is that to the face, without
+    the rounding of a quotient."""
+    (x, y), (nx, ny) = block.corners[face], block.normals[face]
+    u, v = block.corners[(face + 1) % len(block.corners)]
+    along = -ny * (point[0] - x) + nx * (point[1] - y)
+    return 0 <= along <= -ny * (u - x) + nx * (v - y)
+
+
+def _nearest(one: Outline, other: Outline) -> Point:
+    """The shortest step from a point of `one` to a point of `other`, which lie apart."""
+    best, step = 1e300, (0.0, 0.0)
+    for block, seen, sign in ((one, other, 1.0), (other, one, -1.0)):
+        for start, end in _sides(block.corners):
+            for x, y in seen.corners:
+                foot = _foot(start, end, (x, y))
+                dx, dy = x - foot[0], y - foot[1]
+                if dx * dx + dy * dy < best:
+                    best, step = dx * dx + dy * dy, (sign * dx, sign * dy)
+    return step
+
+
+def _sides(corners: tuple[Point, ...]) -> list[tuple[Point, Point]]:
+    return list(zip(corners, (*corners[1:], corners[0]), strict=True))
+
+
+def _foot(start: Point, end: Point, point: Point) -> Point:
+    """The point of a segment nearest to `point`."""
+    ex, ey = end[0] - start[0], end[1] - start[1]
+    length2 = ex * ex + ey * ey
+    share = 0.0 if length2 == 0 else ((point[0] - start[0]) * ex + (point[1] - start[1]) * ey) / length2
+    share = min(1.0, max(0.0, share))
+    return start[0] + share * ex, start[1] + share * ey
