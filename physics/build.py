@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from physics.formula.meaning import GRAVITY, Meanings, read
-from physics.formula.names import constant_of, lookup
+from physics.formula.names import gravity_of
 from physics.infer import act
 from physics.parts.courses import courses_of
 from physics.parts.given import Page, spoken, to_metres
@@ -56,16 +56,12 @@ def build(sketch: Sketch, meanings: Meanings | None = None) -> Built:
 
 
 def _gravity(sketch: Sketch, meanings: Meanings, notices: list[str]) -> float:
-    said = meanings.of(None, "gravity", None)
-    if said is None:
-        return GRAVITY
-    value = constant_of(said, lookup(sketch, meanings, None, {}, GRAVITY))
-    if value is None:
+    said, value = meanings.of(None, "gravity", None), gravity_of(sketch, meanings)
+    if said is not None and value is None:
         notices.append(
             f"{said.text}: the acceleration of free fall must be a number; {GRAVITY} m/s² is used."
         )
-        return GRAVITY
-    return value
+    return GRAVITY if value is None else value
 
 
 def _page(sketch: Sketch, meanings: Meanings, solids: Sequence[Figure], g: float, notices: list[str]) -> Page:

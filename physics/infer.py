@@ -69,7 +69,6 @@ FRICTION_NAMES = frozenset({"k", "s", "r", "f", "fr", "mu", "friction"})
 """Subscripts that make a force friction."""
 NORMAL_NAMES = frozenset({"1", "n", "N", "normal"})
 """Subscripts that make a force the normal force, before all others; and it is what N and R are."""
-FORCE_NAMES = frozenset({"f", "F", "N", "R"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,7 +165,9 @@ def _parted(page: Page, body: Body) -> list[tuple[Said, Part]]:
     own = page.spoken.own.get(body.label)
     if own is None:
         return []
-    newest = {said.name: said for said in own.said if said.name.partition("_")[0] in FORCE_NAMES}
+    newest = {
+        said.name: said for said in own.said if said.quantity is not None and said.quantity.role == "force"
+    }
     # N in f_1 = N is the same force by another name.
     aliases = {str(said.tree) for said in newest.values() if str(said.tree) in newest}
     forces = [said for said in newest.values() if said.name not in aliases]
