@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from physics.formula.meaning import GRAVITY, Meanings, read
-from physics.formula.names import constant_of, lookup, mass_of
+from physics.formula.names import gravity_of, mass_of
 from physics.parts.courses import courses_of
 from physics.parts.forces import forces_of
 from physics.parts.given import Page, to_metres
@@ -49,15 +49,12 @@ def build(sketch: Sketch) -> Built:
 
 def _gravity(sketch: Sketch, meanings: Meanings, notices: list[str]) -> float:
     said = meanings.of(None, "gravity", None)
-    if said is None:
-        return GRAVITY
-    value = constant_of(said, lookup(sketch, meanings, None, {}, GRAVITY))
-    if value is None:
+    value = gravity_of(sketch, meanings)
+    if said is not None and value is None:
         notices.append(
             f"{said.text}: the acceleration of free fall must be a number; {GRAVITY} m/s² is used."
         )
-        return GRAVITY
-    return value
+    return GRAVITY if value is None else value
 
 
 def _page(

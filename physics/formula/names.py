@@ -3,29 +3,65 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
+from math import hypot, inf
+
+import sympy
 
 from physics.formula.meaning import DENSITY, GRAVITY, PER_METRE, SOLIDS, Meanings, Said
 from physics.formula.program import STATE, Lookup, Node, ProgramError, Reading, compile_tree
+from physics.formula.statements import labelled
+from physics.formula.vectors import split
 from sketch.geometry import solid_area
 from sketch.page import Component, Sketch
 from sketch.shapes import Circle, Polygon
 
 
 def mass_of(sketch: Sketch, meanings: Meanings, component: Component) -> tuple[float, str | None]:
-    """(kg, a notice where what the page says of it cannot be). Of a solid of which nothing is said,
-    by its area."""
+    """(kg, a notice where what the page says of it cannot be).
+
+    What the page says of the mass, else of the weight, else of the density; of a solid of which
+    nothing is said, by its area.
+    """
     assert isinstance(component.shape, Circle | Polygon)
-    default = DENSITY * solid_area(component.shape) / PER_METRE**2
-    said = meanings.of(component.label, "mass", component.kind)
-    if said is None:
-        return default, None
-    value = constant_of(said, lookup(sketch, meanings, component.label, {}, GRAVITY))
-    if value is None or value <= 0:
-        return (
-            default,
-            f"{said.text} of {component.label}: a mass must be a number above zero; {default:.3g} kg is used.",
-        )
-    return value, None
+    area = solid_area(component.shape) / PER_METRE**2
+    default = DENSITY * area
+    find = lookup(sketch, meanings, component.label, {}, GRAVITY)
+    for role in ("mass", "weight", "density"):
+        said = meanings.of(component.label, role, component.kind)
+        if said is None:
+            continue
+        value = constant_of(said, find) if role != "weight" else _size(said, find)
+        if role == "weight":
+            # A weight that is worked out from the mass, as in W = m g, tells nothing of the mass.
+            g = gravity_of(sketch, meanings) or GRAVITY
+            if value is None or "m" in {str(symbol) for symbol in said.tree.free_symbols}:
+                continue
+            value = value / g
+        if role == "density" and value is not None:
+            value *= area
+        if value is None or not 0 < value < inf:
+            must = f"a {role} must be a number above zero; {default:.3g} kg is used as its mass"
+            return default, f"{said.text} of {component.label}: {must}."
+        return value, None
+    return default, None
+
+
+def gravity_of(sketch: Sketch, meanings: Meanings) -> float | None:
+    """The acceleration of free fall that the page gives, m/s²; None where it gives none that is a number."""
+    said = meanings.of(None, "gravity", None)
+    return None if said is None else constant_of(said, lookup(sketch, meanings, None, {}, GRAVITY))
+
+
+def _size(said: Said, find: Lookup) -> float | None:
+    """The value at the start of a number, or the length of a vector."""
+    try:
+        pair = split(said.tree)
+    except ProgramError:
+        return None
+    trees = (said.tree,) if pair is None else pair
+    values = [constant_of(replace(said, tree=tree), find) for tree in trees]
+    return None if None in values else hypot(*(value for value in values if value is not None))
 
 
 def constant_of(said: Said, find: Lookup) -> float | None:
@@ -64,7 +100,7 @@ def lookup(
             if base in ("m", "W") and index in masses:
                 return masses[index] * (g if base == "W" else 1.0)
         own = next((s for s in reversed(meanings.said) if s.name == name and s.component == component), None)
-        if own is not None:
+        if own is not None and not (name == "W" and body in masses and isinstance(own.tree, sympy.Tuple)):
             return own.tree
         if body is not None and body in masses and name in ("m", "W"):
             return masses[body] * (g if name == "W" else 1.0)
@@ -77,11 +113,9 @@ def lookup(
 
 
 def _motion_of(name: str, masses: Mapping[str, float]) -> Reading | None:
-    """What `v_B`, `v_xB`, `v_yB` or `omega_B` reads of solid B."""
-    base, _, index = name.partition("_")
-    if base == "v" and index[:1] in ("x", "y") and index[1:] in masses:
-        return Reading(f"v_{index[0]}", index[1:])
-    return Reading(base, index) if base in ("v", "omega") and index in masses else None
+    """What `v_B`, `v_xB`, `v_Bx`, `v_yB` or `omega_B` reads of solid B."""
+    found = labelled(name, masses)
+    return Reading(*found) if found is not None and found[0] in ("v", "v_x", "v_y", "omega") else None
 
 
 def solid_of(sketch: Sketch, component: str | None) -> str | None:

@@ -1,0 +1,102 @@
+"""A line of mathematics taken apart: the names that it gives values, and what each name is of what."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+import sympy
+
+from physics.formula.program import Node
+from physics.formula.quantities import Quantity, Role, quantity_of, role_of
+from sketch.formula.parse import expression as read_again
+from sketch.page import Component, Expression
+from sketch.shapes import Polygon
+
+_TYPED = re.compile(r"[A-Za-z]_[0-9]+[xy]")
+_BY_ASSOCIATION: frozenset[Role] = frozenset(["angle", "force", "tension"])
+"""Of these any subscript is the student's own: f_B on A may be the force of B on A."""
+
+
+def stated(expression: Expression, notices: list[str]) -> list[tuple[str, Node, str]]:
+    """(name, tree, text) of each quantity that an equation gives: one, or both of (x, y) = (…, …)."""
+    text = expression.text or str(expression.tree)
+    tree, problem = expression.tree, expression.problem
+    if tree is None and problem is None and expression.text is not None:
+        again = read_again(expression.text)
+        tree, problem = again.tree, again.problem
+    if tree is None:
+        notices.append(f"{text!r} is not a formula that can be read: {problem}")
+        return []
+    if isinstance(tree, sympy.Equality):
+        for left, right in (tree.args, tree.args[::-1]):
+            names = _names(left, text)
+            if len(names) == 1:
+                return [(names[0], right, text)]
+            if len(names) > 1 and isinstance(right, sympy.Tuple) and len(right.args) == len(names):
+                return [(name, part, text) for name, part in zip(names, right.args, strict=True)]
+    notices.append(f"{text}: this does not say what one quantity is; write it as name = value.")
+    return []
+
+
+def belongs(name: str, component: str | None, parts: Mapping[str, Component]) -> tuple[str, str | None]:
+    """(name, owner): whose quantity a name is that was said of a component (None: of nothing).
+
+    A subscript that is a label tells, and is left out where the quantity is known without it:
+    `v_A` is v of A, `v_xA` and `v_Ax` its v_x. Of angles, forces and tensions, whose subscripts are
+    free, an association tells first; and so it does for what only an answer is called.
+    """
+    split = labelled(name, parts)
+    if split is None:
+        return name, component
+    base, label = split
+    kind = parts[label].kind
+    plain, whole = quantity_of(base, kind), quantity_of(name, kind)
+    if plain is None:
+        return name, component
+    free = plain.answer or plain.role in _BY_ASSOCIATION
+    if component not in (None, label) and free:
+        return name, component
+    return (name if whole is not None and whole.role == plain.role else base), label
+
+
+def labelled(name: str, labels: Mapping[str, object]) -> tuple[str, str] | None:
+    """(v_x, A) for v_xA and v_Ax, (v, A) for v_A; None where the subscript names no component."""
+    base, _, index = name.partition("_")
+    if index in labels:
+        return base, index
+    if index[:1] in ("x", "y") and index[1:] in labels:
+        return f"{base}_{index[0]}", index[1:]
+    if index[-1:] in ("x", "y") and index[:-1] in labels:
+        return f"{base}_{index[-1]}", index[:-1]
+    return None
+
+
+def meant(name: str, part: Component | None, tree: Node) -> Quantity | None:
+    """The quantity that a name is of a component (None: of the page). α of what is inclined is an angle,
+    of what can turn an angular acceleration."""
+    del tree
+    quantity = quantity_of(name, None if part is None else part.kind)
+    if part is None or quantity is None or quantity.role != "angle" or name.partition("_")[0] != "alpha":
+        return quantity
+    inclined = not isinstance(part.shape, Polygon) or part.fixed or len(part.shape.vertices) == 3
+    return quantity if inclined else role_of("angular_acceleration", part.kind)
+
+
+def _names(side: Node, text: str) -> list[str]:
+    """What one side of an equation names: x, |x|, x(t) or (x, y); nothing if it is anything else."""
+    while type(side).__name__ in ("Abs", "norm"):
+        side = side.args[0]
+    if isinstance(side, sympy.Symbol):
+        return [side.name]
+    if isinstance(side, sympy.Tuple) and all(isinstance(part, sympy.Symbol) for part in side.args):
+        return [str(part) for part in side.args]
+    written = text.partition("=")[0].replace(" ", "")
+    if isinstance(side, sympy.Mul) and (whole := _TYPED.fullmatch(written)):
+        # As a factor v_0x is v_0·x; alone on the left it names one thing.
+        return [whole.group()]
+    if isinstance(side, sympy.Mul) and written.endswith("(t)"):
+        # The parser cannot tell a function of time from a product with it.
+        others = [part for part in side.args if part != sympy.Symbol("t")]
+        return [part.name for part in others if len(side.args) == 2 and isinstance(part, sympy.Symbol)]
+    return []
