@@ -13,8 +13,9 @@ from hypothesis import strategies as st
 from sympy.core.basic import Basic
 
 from sketch.formula.build import Unbuildable, add, call, multiply, power, reciprocal
-from sketch.formula.names import FUNCTIONS, GREEK
+from sketch.formula.names import FUNCTIONS, GREEK, UNIT_NAMES
 from sketch.formula.parse import expression
+from sketch.formula.units import unit
 from sketch.ink import LIMITS, Ink, Stroke
 from sketch.page import GESTURE_KINDS, Association, Component, Expression, Gesture, Sketch
 from sketch.shapes import Arrow, Circle, Link, Polygon, Shape, Solid, Spring, Wire
@@ -22,11 +23,21 @@ from sketch.shapes import Arrow, Circle, Link, Polygon, Shape, Solid, Spring, Wi
 # Formulas ---------------------------------------------------------------------------------------
 
 _letters = st.sampled_from([*"abcdefgGFTWkmrtvxye", *sorted(GREEK - {"pi"})])
-_subscripts = st.sampled_from(["", "", "", "_1", "_12", "_x", "_Ax", "_net", "_theta", "_1x", "_x0"])
+_subscripts = st.sampled_from(
+    ["", "", "", "_1", "_12", "_x", "_Ax", "_net", "_theta", "_1x", "_x0", "'", "_2'", "_A''"]
+)
 symbols = st.builds(lambda letter, below: sympy.Symbol(letter + below), _letters, _subscripts)
 numbers = st.integers(0, 50).map(sympy.Integer) | st.fractions(0, 100, max_denominator=200).map(
     lambda value: sympy.Rational(value.numerator, value.denominator)
 )
+units = st.lists(
+    st.builds(
+        lambda name, power: unit(name) ** power, st.sampled_from(sorted(UNIT_NAMES)), st.integers(-3, 3)
+    ),
+    min_size=1,
+    max_size=3,
+).map(lambda factors: sympy.Mul(*factors))
+"""Products of units, that of none included."""
 
 
 def _or_symbol(build: Callable[..., Basic]) -> Callable[..., Basic]:
@@ -49,6 +60,7 @@ def _composites(scalars: st.SearchStrategy[Basic]) -> st.SearchStrategy[Basic]:
         st.builds(_or_symbol(lambda a, b, c: add([a, multiply([minus, b]), c])), scalars, scalars, scalars),
         st.builds(_or_symbol(lambda *factors: multiply(factors)), scalars, scalars, scalars),
         st.builds(_or_symbol(lambda a, b: multiply([a, reciprocal(b)])), scalars, scalars),
+        st.builds(_or_symbol(lambda number, measure: multiply([number, measure])), scalars, units),
         st.builds(_or_symbol(power), scalars, scalars),
         st.builds(_or_symbol(lambda base: power(base, sympy.Rational(1, 2))), scalars),
         st.builds(_or_symbol(lambda name, argument: call(name, argument)), names, scalars),

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import sympy
 from sympy.core.basic import Basic
 
-from sketch.formula.names import FUNCTIONS
+from sketch.formula.names import FUNCTIONS, RECIPROCALS
 
 
 class Unbuildable(ValueError):
@@ -85,6 +85,8 @@ def call(name: str, argument: Basic) -> Basic:
         if name not in ("abs", "norm"):
             raise Unbuildable(f"{name} takes a scalar, not a vector")
         name = "norm"
+    if name in RECIPROCALS:
+        return reciprocal(call(RECIPROCALS[name], argument))
     if name == "exp":
         return _exponential(argument)
     return FUNCTIONS[name](argument, evaluate=False)

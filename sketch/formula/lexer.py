@@ -1,7 +1,8 @@
 """Formula text cut into tokens: plain typing, Unicode and LaTeX give the same tokens.
 
 Subscripts are part of a name and are read here; superscripts are grammar and are left to
-the parser. Positions count characters of the text from 0.
+the parser. Primes are part of a name too: v_1' is the v_1 after an impact. Positions count
+characters of the text from 0.
 """
 
 from __future__ import annotations
@@ -11,10 +12,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from sketch.formula.names import COMMANDS, FUNCTION_ALIASES, LETTERS, words
+from sketch.formula.names import COMMANDS, FUNCTION_ALIASES, LETTERS, UNIT_WORDS, words
 
 TokenKind = Literal[
-    "number", "name", "function", "sqrt", "frac",
+    "number", "name", "function", "sqrt", "frac", "unit",
     "+", "-", "*", "/", "^", "=", "(", ")", "[", "]", "{", "}", ",", "|", "‖", "end",
 ]  # fmt: skip
 
@@ -43,12 +44,14 @@ class FormulaError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Token:
-    """value: digits of a number, canonical name of a name or function, else what was written."""
+    """value: digits of a number (or 1/2 for ½), canonical name of a name, function or unit, else what
+    was written; upright: whether it was set upright, as units are."""
 
     kind: TokenKind
     value: str
     start: int
     end: int
+    upright: bool = False
 
 
 _SIGNS: dict[str, TokenKind] = {
@@ -62,25 +65,38 @@ _SIGNS: dict[str, TokenKind] = {
     "√": "sqrt",
 }  # fmt: skip
 _COMMAND_SIGNS: dict[str, TokenKind] = {
-    "cdot": "*", "times": "*", "div": "/", "|": "‖", "Vert": "‖", "lVert": "‖", "rVert": "‖",
+    "cdot": "*", "times": "*", "ast": "*", "div": "/", "|": "‖", "Vert": "‖", "lVert": "‖", "rVert": "‖",
     "vert": "|", "lvert": "|", "rvert": "|", "{": "(", "}": ")",
     "frac": "frac", "dfrac": "frac", "tfrac": "frac", "sqrt": "sqrt",
 }  # fmt: skip
-_STYLES = frozenset(["vec", "mathbf", "boldsymbol", "mathrm", "mathit"])
+_UPRIGHT = frozenset(["mathrm", "text", "rm"])
+"""Commands that dress a unit, or a name."""
+_STYLES = frozenset(["vec", "overrightarrow", "mathbf", "boldsymbol", "mathit", *_UPRIGHT])
 """Commands that dress a name; whether it is a vector is for its meaning to say."""
+_FRACTIONS = dict(zip("½⅓⅔¼¾⅕⅛", ["1/2", "1/3", "2/3", "1/4", "3/4", "1/5", "1/8"], strict=True))
 _BLANK_COMMANDS = frozenset([",", ";", ":", "!", " ", "quad", "qquad", "left", "right", "displaystyle"])
 _SUPERSCRIPTS = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ⁿ", "0123456789+-n", strict=True))
 _SUBSCRIPTS = dict(zip("₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", "0123456789aehijklmnoprstuvx", strict=True))
 _NOT_YET: dict[str, str] = {
-    **dict.fromkeys(("°", "degree", "circ"), "angles are in radians: write 30 degrees as pi/6"),
     **dict.fromkeys(
-        ("'", "′", "dot", "ddot"), "derivatives are not read; give the quantity a name of its own"
+        ("dot", "ddot"),
+        "derivatives are not read; give the quantity a name of its own, as v_x for the rate of x",
     ),
-    **dict.fromkeys(("<", ">", "≤", "≥", "≠", "≈", "le", "ge", "ne", "approx"), "only = relates two sides"),
+    **dict.fromkeys(("'", "′", "prime"), "a prime belongs to a letter, as in v'"),
+    **dict.fromkeys(("±", "pm", "mp"), "a formula has one value; write the two on two lines"),
+    "sum_": ("the sum of all forces is written without limits, as in \\sum F"),
+    **dict.fromkeys(("$", "&", "\\"), "one formula is written without the signs that set it apart"),
+    **dict.fromkeys(("%", "!", "?", ";", ":", "#", "@"), "this sign has no meaning in a formula"),
+    **dict.fromkeys(
+        ("<", ">", "≤", "≥", "≠", "≈", "le", "leq", "ge", "geq", "ne", "neq", "approx", "lt", "gt"),
+        "only = relates two sides",
+    ),
     "_": "a subscript belongs to a letter, as in f_1",
     ".": "a point stands between digits, as in 9.81",
 }
 
+_DEGREE = re.compile(r"°|º|(?:\^\s*)?\\degree(?![A-Za-z])|\^\s*(?:\{\s*\\circ\s*\}|\\circ(?![A-Za-z]))")
+_PRIMES = re.compile(r"['′]+|(?:\^\s*(?:\{\s*(?:\\prime\s*)+\}|\\prime(?![A-Za-z])))")
 _BLANK = re.compile(r"[\s~\u200b]+")
 _NUMBER = re.compile(r"(?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _RUN = re.compile(r"[A-Za-z]+")
@@ -101,9 +117,11 @@ def tokens(text: str) -> list[Token]:
         if blank := _BLANK.match(text, at):
             at = blank.end()
             continue
+        if text[at] == "_" and found and found[-1].value == "sum":
+            raise FormulaError(_NOT_YET["sum_"], text, at)
         new = list(_tokens_at(text, at))
         if new and new[-1].kind == "name":
-            new[-1] = _with_subscript(text, new[-1])
+            new[-1] = _with_primes(text, _with_subscript(text, _with_primes(text, new[-1])))
         found.extend(new)
         at = new[-1].end if new else _end_of_command(text, at)
     return [*found, Token("end", "", len(text), len(text))]
@@ -118,6 +136,12 @@ def _tokens_at(text: str, at: int) -> Iterator[Token]:
         for word in words(run.group()):
             yield _word(word, at, at + len(word))
             at += len(word)
+    elif degree := _DEGREE.match(text, at):
+        yield Token("unit", "deg", at, degree.end(), upright=True)
+    elif sign in _FRACTIONS:
+        yield Token("number", _FRACTIONS[sign], at, at + 1)
+    elif sign == "∑":
+        yield Token("function", "sum", at, at + 1)
     elif sign == "\\":
         yield from _command(text, at)
     elif sign in LETTERS:
@@ -152,7 +176,7 @@ def _command(text: str, at: int) -> Iterator[Token]:
     elif name in _COMMAND_SIGNS:
         yield Token(_COMMAND_SIGNS[name], f"\\{name}", at, end)
     elif name in _STYLES:
-        yield _styled(text, at, end)
+        yield from _styled(text, at, end, name in _UPRIGHT)
     elif name not in _BLANK_COMMANDS:
         reason = _NOT_YET.get(
             name,
@@ -161,13 +185,24 @@ def _command(text: str, at: int) -> Iterator[Token]:
         raise FormulaError(reason, text, at)
 
 
-def _styled(text: str, at: int, end: int) -> Token:
-    """\\vec{F} is F."""
+def _styled(text: str, at: int, end: int, upright: bool) -> Iterator[Token]:
+    """\\vec{F} is F; \\mathrm{m} is m, and \\mathrm{km/h} is km/h, set upright."""
     dressed = _GROUP.match(text, end)
-    inner = tokens(dressed.group().strip("{} ")) if dressed else []
-    if dressed is None or [token.kind for token in inner] != ["name", "end"]:
-        raise FormulaError(f"{text[at:end]} takes one letter, as in {text[at:end]}{{v}}", text, at)
-    return Token("name", inner[0].value, at, dressed.end())
+    written = "" if dressed is None else dressed.group().strip()
+    inside = written.removeprefix("{").removesuffix("}")
+    try:
+        *inner, last = tokens(inside)
+    except FormulaError as error:
+        raise FormulaError(error.reason, text, at) from None
+    units = upright and all(run in UNIT_WORDS or run in FUNCTION_ALIASES for run in _RUN.findall(inside))
+    if dressed is None or not inner or ([token.kind for token in inner] != ["name"] and not units):
+        kind = "one letter or a unit" if upright else "one letter"
+        raise FormulaError(f"{text[at:end]} takes {kind}, as in {text[at:end]}{{m}}", text, at)
+    begin = dressed.start() + dressed.group().index(inside)
+    for token, after in zip(inner, [*inner[1:], last], strict=True):
+        stop = dressed.end() if after is last else begin + token.end
+        start = at if token is inner[0] else begin + token.start
+        yield Token(token.kind, token.value, start, stop, upright)
 
 
 def _end_of_command(text: str, at: int) -> int:
@@ -202,7 +237,17 @@ def _with_subscript(text: str, name: Token) -> Token:
         below, end = _subscript(text, start.end())
     else:
         return name
-    return Token("name", f"{name.value}_{below}", name.start, end)
+    base, primes = name.value.rstrip("'"), "'" * name.value.count("'")
+    return Token("name", f"{base}_{below}{primes}", name.start, end, name.upright)
+
+
+def _with_primes(text: str, name: Token) -> Token:
+    found = _PRIMES.match(text, name.end)
+    if found is None:
+        return name
+    written = found.group()
+    count = max(written.count("'") + written.count("′"), written.count("\\prime"))
+    return Token("name", name.value + "'" * count, name.start, found.end(), name.upright)
 
 
 def _subscript(text: str, at: int) -> tuple[str, int]:

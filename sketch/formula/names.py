@@ -1,7 +1,7 @@
 """The words of the formula language: which names it knows, however they are spelt.
 
 A name has one canonical ASCII spelling, which is the name of its SymPy symbol: `theta` for
-θ, `\\theta` and theta; a subscript follows an underscore: `f_1`, `v_Ax`. A letter that is in none
+θ, `\\theta` and theta; a subscript follows an underscore: `f_1`, `v_Ax`; a prime comes last: `v_1'`. A letter that is in none
 of these tables stands for itself.
 """
 
@@ -53,11 +53,16 @@ FUNCTIONS: dict[str, Callable[..., Basic]] = {
     "ln": sympy.log,
     "abs": sympy.Abs,
     "norm": sympy.Function("norm"),
+    "sum": sympy.Function("sum"),
 }
-"""Functions of one argument by canonical name. `norm` (‖x‖) has no meaning of its own here."""
+"""Functions of one argument by canonical name. `norm` (‖x‖) and `sum` (ΣF) have no meaning of their own
+here."""
+
+RECIPROCALS: dict[str, str] = {"cot": "tan", "sec": "cos", "csc": "sin"}
+"""Functions that are kept as one over another: cot x is 1/tan x."""
 
 FUNCTION_ALIASES: dict[str, str] = {
-    **{name: name for name in FUNCTIONS},
+    **{name: name for name in (*FUNCTIONS, *RECIPROCALS)},
     "arcsin": "asin",
     "arccos": "acos",
     "arctan": "atan",
@@ -85,3 +90,67 @@ def words(run: str) -> list[str]:
         cut.append(run[at : at + length])
         at += length
     return cut
+
+
+UNIT_LETTERS: frozenset[str] = frozenset(["m", "s", "N", "J"])
+"""Letters that name a unit where nothing else can be meant."""
+UPRIGHT_LETTERS: frozenset[str] = frozenset(["g", "h", "W"])
+"""Letters that name a unit only when set upright; the quantities of these names are everywhere."""
+UNITS: dict[str, tuple[str, ...]] = {
+    **{
+        name: (name,)
+        for name in (
+            "kg",
+            "lb",
+            "km",
+            "dm",
+            "cm",
+            "mm",
+            "ft",
+            "inch",
+            "mi",
+            "ms",
+            "min",
+            "deg",
+            "rad",
+            "rev",
+            "Hz",
+            "kHz",
+            "rpm",
+            "mph",
+            "kN",
+            "mN",
+            "MN",
+            "lbf",
+            "kJ",
+            "mJ",
+            "MJ",
+            "eV",
+            "kWh",
+            "kW",
+            "MW",
+            "Pa",
+            "kPa",
+            "MPa",
+        )
+    },
+    "Nm": ("N", "m"),
+    "hr": ("h",),
+    **dict.fromkeys(["degree", "degrees"], ("deg",)),
+    **dict.fromkeys(["radian", "radians"], ("rad",)),
+    **dict.fromkeys(["metre", "metres", "meter", "meters"], ("m",)),
+    **dict.fromkeys(["second", "seconds"], ("s",)),
+    **dict.fromkeys(["minute", "minutes"], ("min",)),
+    **dict.fromkeys(["hour", "hours"], ("h",)),
+    **dict.fromkeys(["gram", "grams"], ("g",)),
+    **dict.fromkeys(["newton", "newtons"], ("N",)),
+    **dict.fromkeys(["joule", "joules"], ("J",)),
+    **dict.fromkeys(["watt", "watts"], ("W",)),
+}
+"""Units of several letters by spelling; the canonical names whose product they are."""
+UNIT_WORDS: frozenset[str] = frozenset([*UNIT_LETTERS, *UPRIGHT_LETTERS, *UNITS])
+"""Every spelling of a unit."""
+UNIT_NAMES: frozenset[str] = frozenset(
+    [*UNIT_LETTERS, *UPRIGHT_LETTERS, *(name for product in UNITS.values() for name in product)]
+)
+"""Canonical names of units."""

@@ -5,7 +5,7 @@ The grammar; `*` repeats, `?` is optional, juxtaposition of operands multiplies:
     relation   sum  ( = sum )?                     x = y is Equality(x, y, evaluate=False)
     sum        sign? product  ( + or - sign? product )*
     product    power  ( * or / sign? power  |  power )*      left to right: 1/2 g t^2 is (1/2)·g·t²
-    power      operand ( ^ exponent )?             right to left: x^y^z is x^(y^z)
+    power      operand ( ^ exponent )? units?      right to left: x^y^z is x^(y^z)
     exponent   sign? power  |  { sum }
     operand    number  |  name  |  ( sum )  |  [ sum ]  |  { sum }  |  ( sum , sum … )  vector
                | sum |  →  Abs        ‖ sum ‖  or  || sum ||  →  norm
@@ -16,7 +16,8 @@ The grammar; `*` repeats, `?` is optional, juxtaposition of operands multiplies:
 
 Numbers are exact rationals, decimals too (0.1 is 1/10): equal texts give equal trees, sums of
 decimals have no rounding, and whoever computes chooses the precision. π is a number; `e` is an
-ordinary name (restitution, say) except as the base of a power, where it is Euler's number.
+ordinary name (restitution, say) except as the base of a power, where it is Euler's number. Where a
+letter after a number is a unit is told in `units`. ΣF is the sum of all forces F.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TypeVar
 
 import sympy
@@ -32,6 +34,7 @@ from sympy.core.basic import Basic
 from sketch.formula.build import Unbuildable, add, call, multiply, power, reciprocal
 from sketch.formula.lexer import FormulaError, Token, TokenKind, tokens
 from sketch.formula.names import INVERSES
+from sketch.formula.units import Unit, units_at
 from sketch.page import Expression
 from sketch.shapes import Point
 
@@ -64,6 +67,22 @@ def parse(text: str) -> Basic:
 
     Raises FormulaError, which says what is wrong, where, and what would be right.
     """
+    read = _read(text)
+    if isinstance(read, FormulaError):
+        raise FormulaError(read.reason, read.text, read.position)
+    return read
+
+
+@lru_cache(maxsize=4096)
+def _read(text: str) -> Basic | FormulaError:
+    """A page is read again whenever one of its formulas is edited: the others are remembered."""
+    try:
+        return _parsed(text)
+    except FormulaError as error:
+        return error.with_traceback(None)
+
+
+def _parsed(text: str) -> Basic:
     if len(text) > LIMITS.characters:
         raise FormulaError(
             f"a formula of {len(text)} characters; at most {LIMITS.characters} are read",
@@ -134,7 +153,16 @@ class _Parser:
             if self._take("*"):
                 factors.append(self._signed(self._power))
             elif self._take("/"):
+                number = self._here.kind == "number"
                 divisor = self._signed(self._power)
+                if (
+                    number
+                    and isinstance(divisor, sympy.Expr)
+                    and divisor.has(Unit)
+                    and not any(f.free_symbols for f in factors)
+                ):
+                    divisor, units = divisor.as_independent(Unit)
+                    factors.append(units)
                 factors.append(self._built(here, lambda d=divisor: reciprocal(d)))
             elif here.kind in _BEGINS_OPERAND and not self._closes(here):
                 self._check_juxtaposed(before, here)
@@ -144,6 +172,10 @@ class _Parser:
         return factors[0] if len(factors) == 1 else self._built(start, lambda: multiply(factors))
 
     def _power(self) -> Basic:
+        return self._measured(self._raised())
+
+    def _raised(self) -> Basic:
+        """A power without what measures it: in 10^3 m the metres are not the exponent's."""
         start = self._here
         euler = start.kind == "name" and start.value == "e"
         base = self._operand()
@@ -154,9 +186,21 @@ class _Parser:
             return self._built(start, lambda: call("exp", exponent))
         return self._built(start, lambda: power(base, exponent))
 
+    def _measured(self, value: Basic) -> Basic:
+        """The value with the units that follow it, where it is a number and they are units."""
+        here = self._here
+        if here.kind not in ("name", "unit"):
+            return value
+        closer = self._closers[-1] if self._closers else None
+        found = units_at(self._text, self._tokens, self._next, closer)
+        if found is None or value.free_symbols:
+            return value
+        units, self._next = found
+        return self._built(here, lambda: multiply([value, *units]))
+
     def _exponent(self) -> Basic:
         with self._deeper():
-            return self._operand() if self._here.kind == "{" else self._signed(self._power)
+            return self._operand() if self._here.kind == "{" else self._signed(self._raised)
 
     @contextmanager
     def _deeper(self) -> Generator[None]:
@@ -177,6 +221,8 @@ class _Parser:
             case "number":
                 return self._number(token)
             case "name":
+                if token.value == "Sigma" and self._here.kind == "name":
+                    return self._sum_of_all(token)
                 return sympy.pi if token.value == "pi" else sympy.Symbol(token.value)
             case "(" | "[":
                 return self._bracketed(token)
@@ -251,7 +297,16 @@ class _Parser:
         radicand = self._operand()
         return self._built(token, lambda: power(radicand, reciprocal(degree)))
 
+    def _sum_of_all(self, token: Token) -> Basic:
+        """ΣF, \\sum F_x: of one name or bracket."""
+        if self._here.kind == "^":
+            raise self._error("the sum of all forces is written without limits, as in \\sum F")
+        inner = self._operand()
+        return self._built(token, lambda: call("sum", inner))
+
     def _call(self, token: Token) -> Basic:
+        if token.value == "sum":
+            return self._sum_of_all(token)
         name, raised = token.value, None
         if self._take("^"):
             raised = self._exponent()
@@ -310,6 +365,8 @@ class _Parser:
             raise self._error(
                 "a comma separates the components of a vector in brackets; a decimal has a point, as in 9.81"
             )
+        if here.kind == "unit":
+            raise self._error("degrees stand after a number, as in 30°")
         raise self._error(f"expected {wanted}, but {self._spoken}")
 
     def _built(self, token: Token, build: Callable[[], Basic]) -> Basic:
@@ -317,6 +374,8 @@ class _Parser:
             return build()
         except Unbuildable as problem:
             raise FormulaError(str(problem), self._text, token.start) from None
+        except ArithmeticError:  # SymPy's, where it looks for the sign of what has no value: 1/sin(0)
+            raise FormulaError("this has no value", self._text, token.start) from None
 
     @property
     def _here(self) -> Token:

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from sympy import Abs, Eq, Function, Rational, Symbol, Tuple, cos, exp, pi, sin, sqrt, symbols
 
 from sketch.formula.parse import LIMITS, FormulaError, expression, parse
+from sketch.formula.units import unit
 
 norm = Function("norm")
 theta, mu = symbols("theta mu")
@@ -49,12 +50,55 @@ def equation(left: object, right: object) -> sympy.Basic:
         ([r"\sqrt[3]{x}", "x^(1/3)"], x ** Rational(1, 3)),
         (["2 (x, y)", "(2x, 2y)", "(x,y)+(x,y)"], Tuple(2 * x, 2 * y)),
         (["|(x, y)|", "‖(x, y)‖", "norm((x, y))"], norm(Tuple(x, y))),
+        (["½mv²", "1/2 m v^2", r"\frac12 m v^2"], m * v**2 / 2),
+        (["ΣF = m a", r"\sum F = ma", r"\Sigma F = m a", "sum F = m a", r"\sum \vec F = m a"], equation(Function("sum")(F), m * Symbol("a"))),
+        (["v_1' = 2", "v'_1 = 2", r"v_1^{\prime} = 2", r"v_{1}^\prime=2", "v₁′ = 2"], equation(Symbol("v_1'"), 2)),
         (["|x||y|", "|x| |y|", "abs(x) abs(y)"], Abs(x) * Abs(y)),
     ],
     ids=lambda value: value[0] if isinstance(value, list) else "",
 )  # fmt: skip
 def test_every_spelling_of_a_formula_gives_one_tree(texts: list[str], tree: sympy.Basic) -> None:
     assert [parse(text) for text in texts] == [tree] * len(texts)
+
+
+kg, km, hour, metre, second, newton, deg = (unit(name) for name in ("kg", "km", "h", "m", "s", "N", "deg"))
+
+
+@pytest.mark.parametrize(
+    ("texts", "tree"),
+    [
+        (["m = 5 kg", "m = 5kg", r"m = 5\,\mathrm{kg}", r"m=5\text{ kg}", r"m=5~\rm{kg}"], equation(m, 5 * kg)),
+        (["v = 36 km/h", "v=36km/h", r"v = 36\,\mathrm{km/h}", r"v=36\,\frac{1}{1}\,\mathrm{km}/\mathrm{h}", "v = 36 km h^-1"], equation(v, 36 * km / hour)),
+        (["F = 3 N m", "F = 3 Nm", r"F = 3\,\mathrm{N\,m}", "F = 3 N*m", "F = 3 N·m"], equation(F, 3 * newton * metre)),
+        (["9.81 m/s^2", "9.81 m/s²", "9.81 m/s/s", "9.81 m s^-2", r"9.81\,\mathrm{m/s^{2}}", "9.81 m·s⁻²"], Rational(981, 100) * metre / second**2),
+        (["30°", "30 deg", "30 degrees", r"30^\circ", r"30^{\circ}", r"30\degree"], 30 * deg),
+        (["sin 30°", r"\sin 30^\circ", "sin(30 deg)"], sin(30 * deg)),
+        (["F = 5 m", "F = (3 + 2) m", r"F = 5\,m", "F = 10/2 m"], equation(F, 5 * metre)),
+        (["F = 5m", "F = 5*m", "F = 5·m", r"F=5\cdot m"], equation(F, 5 * m)),
+        (["x = 1/2 m", "x = ½ m", "x = 0.5 m", r"x = \frac{1}{2} m"], equation(x, metre / 2)),
+        (["6 m / 2 s", "(6 m)/(2 s)", "3 m/s"], 3 * metre / second),
+        (["T = 5 sqrt(2) N", r"T = 5\sqrt{2}\,\mathrm{N}"], equation(T, 5 * sqrt(2) * newton)),
+        (["f = (0, 5) N", "f = (0, 5 N)"], equation(f, Tuple(0, 5 * newton))),
+        (["1/2 m v^2", "(1/2) m v^2"], m * v**2 / 2),
+        (["2 m g", "2*m*g"], 2 * m * g),
+        (["3t - 1/2 g t^2", "3 t - g t^2/2"], 3 * t - g * t**2 / 2),
+        (["2 kg * 3 m/s^2", "6 kg m/s^2"], 6 * kg * metre / second**2),
+        (["3 m/s t", "3 m/s * t"], 3 * metre / second * t),
+        (["10^3 m", "1000 m"], 1000 * metre),
+        (["5 m*v", "5 m v"], 5 * m * v),
+        (["2 kg g", "2 kg * g"], 2 * kg * g),
+        (["|3 m|", "abs(3 m)"], Abs(3 * metre, evaluate=False)),
+    ],
+    ids=lambda value: value[0] if isinstance(value, list) else "",
+)  # fmt: skip
+def test_a_unit_stands_after_a_number_and_ends_its_term(texts: list[str], tree: sympy.Basic) -> None:
+    assert [parse(text) for text in texts] == [tree] * len(texts)
+
+
+def test_a_unit_is_never_the_quantity_of_its_letter() -> None:
+    assert parse("5 m") != parse("5m")
+    assert unit("m") != m
+    assert pickle.loads(pickle.dumps(unit("m"))) == unit("m")
 
 
 def test_case_matters_and_letters_multiply() -> None:
@@ -82,8 +126,13 @@ def test_an_equation_is_not_evaluated() -> None:
         ("g = 9,81", 5, "a decimal has a point"),
         ("x2", 1, "x_2, x*2 or x^2"),
         ("1 000", 2, "write * between them"),
-        ("30°", 2, "radians"),
-        ("v' = 1", 1, "derivatives"),
+        ("x°", 1, "degrees stand after a number"),
+        ("3' = 1", 1, "a prime belongs to a letter"),
+        (r"\dot x = 1", 0, "derivatives"),
+        (r"\sum_i F = 0", 4, "without limits"),
+        (r"5\,\text{apples}", 3, "one letter or a unit"),
+        ("5 kg^x", 5, "a unit's power is a whole number"),
+        ("x = 2 ± 1", 6, "one value"),
         ("a < b", 2, "only ="),
         (r"\foo", 0, r"\foo is not known"),
         ("|a", 2, "to close the |"),
@@ -150,6 +199,13 @@ def test_a_refusal_points_with_a_caret() -> None:
         "2^(1/" + "9" * 300 + ")*2^(1/" + "7" * 300 + ")",
         "exp(ln 3)^999999999 exp(x)",
         "exp(999 ln 3)^999",
+        "5 " + "m " * 490,
+        "5 " + "kg/" * 330 + "s",
+        "5 kg^12" * 140,
+        "30" + "°" * 900,
+        "v" + "'" * 900,
+        r"5\mathrm{" * 90,
+        "Σ" * 900 + "F",
     ],
     ids=lambda text: f"{text[:12]}… {len(text)}",
 )
