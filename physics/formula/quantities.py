@@ -133,7 +133,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity("inertia", ("I*",), SOLIDS, "scalar", False, INERTIA, "a moment of inertia"),
     Quantity("torque", ("tau*",), SOLIDS, "scalar", False, ENERGY, "a torque"),
     Quantity("height", ("h*", "H*"), (*SOLIDS, None), "scalar", False, LENGTH, "a height"),
-    Quantity("distance", ("d*", "D*"), (*SOLIDS, *LINKS, None), "scalar", False, LENGTH, "a distance"),
+    Quantity("distance", ("d*", "D*", "R*"), (*SOLIDS, *LINKS, None), "scalar", False, LENGTH, "a distance"),
     Quantity("stretch", ("x", "s"), ("spring",), "scalar", False, LENGTH, "a spring's stretch"),
     Quantity("pull", ("F*", "f*"), ("spring",), "scalar", False, FORCE, "a spring's pull"),
 )  # fmt: skip

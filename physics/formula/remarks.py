@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 from physics.formula.quantities import INSTEAD, NAMES_OF, Role, quantities_named, quantity_of
+from physics.formula.said import Said
 from sketch.page import Component
-
-if TYPE_CHECKING:
-    from physics.formula.meaning import Said
 
 _SEVERAL: frozenset[Role] = frozenset(["force", "angle", "velocity", "v_x", "v_y"])
 """Of these a thing may have several, each with a name of its own: v, and v_0 at the start."""
@@ -21,7 +18,7 @@ def impossible(said: Sequence[Said], parts: Mapping[str, Component], used: froze
     for one in said:
         part = None if one.component is None else parts[one.component]
         kind = None if part is None else part.kind
-        if quantity_of(one.name, kind) is not None or one.name in used:
+        if quantity_of(one.name, kind) is not None or one.name in used or one.solved:
             continue
         where = NAMES_OF[kind] if part is None else f"{NAMES_OF[kind]} ({part.label})"
         quantities = quantities_named(one.name)

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import sympy
 
 from physics.formula.program import Node
-from physics.formula.quantities import Quantity, Role, quantity_of, role_of
+from physics.formula.quantities import Quantity, Role, quantities_named, quantity_of, role_of
+from physics.formula.units import has_units, size_of_units
 from sketch.formula.parse import expression as read_again
+from sketch.formula.units import Unit
 from sketch.page import Component, Expression
 from sketch.shapes import Polygon
 
@@ -18,8 +21,18 @@ _BY_ASSOCIATION: frozenset[Role] = frozenset(["angle", "force", "tension"])
 """Of these any subscript is the student's own: f_B on A may be the force of B on A."""
 
 
-def stated(expression: Expression, notices: list[str]) -> list[tuple[str, Node, str]]:
-    """(name, tree, text) of each quantity that an equation gives: one, or both of (x, y) = (…, …)."""
+@dataclass(frozen=True, slots=True)
+class Line:
+    """definitions: (name, tree) of each quantity that is given, two of (x, y) = (…, …); relation: the
+    equation, where it gives none; text: as written."""
+
+    text: str
+    definitions: tuple[tuple[str, Node], ...] = ()
+    relation: Node | None = None
+
+
+def stated(expression: Expression, notices: list[str]) -> Line:
+    """What a line states; a notice where that is nothing."""
     text = expression.text or str(expression.tree)
     tree, problem = expression.tree, expression.problem
     if tree is None and problem is None and expression.text is not None:
@@ -27,16 +40,18 @@ def stated(expression: Expression, notices: list[str]) -> list[tuple[str, Node, 
         tree, problem = again.tree, again.problem
     if tree is None:
         notices.append(f"{text!r} is not a formula that can be read: {problem}")
-        return []
+        return Line(text)
     if isinstance(tree, sympy.Equality):
         for left, right in (tree.args, tree.args[::-1]):
             names = _names(left, text)
             if len(names) == 1:
-                return [(names[0], right, text)]
+                return Line(text, ((names[0], right),))
             if len(names) > 1 and isinstance(right, sympy.Tuple) and len(right.args) == len(names):
-                return [(name, part, text) for name, part in zip(names, right.args, strict=True)]
+                return Line(text, tuple(zip(names, right.args, strict=True)))
+        if any(not isinstance(symbol, Unit) for symbol in tree.free_symbols):
+            return Line(text, relation=tree)
     notices.append(f"{text}: this does not say what one quantity is; write it as name = value.")
-    return []
+    return Line(text)
 
 
 def belongs(name: str, component: str | None, parts: Mapping[str, Component]) -> tuple[str, str | None]:
@@ -73,11 +88,17 @@ def labelled(name: str, labels: Mapping[str, object]) -> tuple[str, str] | None:
 
 
 def meant(name: str, part: Component | None, tree: Node) -> Quantity | None:
-    """The quantity that a name is of a component (None: of the page). α of what is inclined is an angle,
-    of what can turn an angular acceleration."""
-    del tree
-    quantity = quantity_of(name, None if part is None else part.kind)
-    if part is None or quantity is None or quantity.role != "angle" or name.partition("_")[0] != "alpha":
+    """The quantity that a name is of a component (None: of the page), as the units of its value tell where
+    it may be several. α of what is inclined is an angle, of what can turn an angular acceleration."""
+    kind = None if part is None else part.kind
+    quantity = quantity_of(name, kind)
+    if quantity is None:
+        return None
+    if isinstance(tree, sympy.Expr) and has_units(tree):
+        size = size_of_units(tree)
+        fitting = [one for one in quantities_named(name) if kind in one.owners and one.size == size]
+        return fitting[0] if fitting else quantity
+    if part is None or quantity.role != "angle" or name.partition("_")[0] != "alpha":
         return quantity
     inclined = not isinstance(part.shape, Polygon) or part.fixed or len(part.shape.vertices) == 3
     return quantity if inclined else role_of("angular_acceleration", part.kind)
@@ -87,7 +108,7 @@ def _names(side: Node, text: str) -> list[str]:
     """What one side of an equation names: x, |x|, x(t) or (x, y); nothing if it is anything else."""
     while type(side).__name__ in ("Abs", "norm"):
         side = side.args[0]
-    if isinstance(side, sympy.Symbol):
+    if isinstance(side, sympy.Symbol) and not isinstance(side, Unit):
         return [side.name]
     if isinstance(side, sympy.Tuple) and all(isinstance(part, sympy.Symbol) for part in side.args):
         return [str(part) for part in side.args]

@@ -96,7 +96,7 @@ def _newest(page: Page, part: Component) -> list[Said]:
 
 
 def _statement(page: Page, part: Component, said: Said) -> _Statement | None:
-    quantity = quantity_of(said.name, part.kind)
+    quantity = said.quantity or quantity_of(said.name, part.kind)
     match None if quantity is None else quantity.role:
         case "x" | "y" as axis:
             return _Statement(said, "position", {axis: said.tree})

@@ -37,7 +37,7 @@ def forces_of(page: Page, bodies: tuple[Body, ...]) -> tuple[tuple[Force, ...], 
         part = None if label is None else page.sketch.component(label)
         if part is None or label is None or not isinstance(part.shape, Circle | Polygon):
             continue
-        if name.partition("_")[0] not in ("f", "F", "N", "R") or label not in page.masses or part.fixed:
+        if said.quantity is None or said.quantity.role != "force" or label not in page.masses or part.fixed:
             continue
         try:
             pair = split(said.tree)
