@@ -7,8 +7,8 @@ What counts as consistent:
 - A number without a unit, alone in a sum or on a side, is in SI of what it is added to or equal to:
   `f_1 = 5` is 5 N, and `v + 2` adds 2 m/s.
 - A number that multiplies is a plain number, `2 m g` is a force. But a number other than 1 and 1/2,
-  or a coefficient given as a bare number (μ = 0.5), that multiplies nothing but the time and the motion
-  carries what it must: `y = 3t` is 3 m/s times t, `f = -μ v` a drag, `sin(2t)` turns with 2/s.
+  or a coefficient given as a bare number (μ = 0.5), that multiplies nothing but the time, the motion and
+  functions carries what it must: `y = 3t` is 3 m/s times t, `f = -μ v` a drag, `sin(2t)` turns with 2/s.
 - Functions take and give plain numbers, angles among them; exponents are plain numbers.
 - A name whose dimension nobody can tell (c, b) may have any.
 """
@@ -173,7 +173,7 @@ class _Names:
         if isinstance(tree, sympy.Tuple):
             sizes = {self.size(part, wanted) for part in tree.args} - {None}
             return sizes.pop() if len(sizes) == 1 else wanted
-        if type(tree).__name__ in ("Abs", "norm", "sum"):
+        if _measures(tree):
             return self.size(tree.args[0], wanted)
         for argument in tree.args:
             self._number(argument, f"and {type(tree).__name__.lower()} takes a plain number")
@@ -227,8 +227,13 @@ class _Names:
         but numbers, and not only 1 or 1/2."""
         number = sympy.Mul(*(part for part in tree.args if not part.free_symbols))
         rest = [part for part in tree.args if part.free_symbols]
-        coefficient = abs(number) not in (1, sympy.Rational(1, 2))
-        for part in rest:
+        plain_numbers = [isinstance(part, sympy.Function) and not _measures(part) for part in rest]
+        pure = (1,) if all(plain_numbers) else (1, sympy.Rational(1, 2))
+        coefficient = abs(number) not in pure
+        for part, is_number in zip(rest, plain_numbers, strict=True):
+            if is_number:
+                self.size(part, None)
+                continue
             symbols = {symbol.name for symbol in part.free_symbols if not isinstance(symbol, Unit)}
             if any(isinstance(symbol, Unit) for symbol in part.free_symbols):
                 return False
@@ -283,3 +288,8 @@ class _Names:
             return inner.size(said.given, None)
         except Inconsistent:
             return None
+
+
+def _measures(tree: Node) -> bool:
+    """Whether a function has the dimension of what it takes."""
+    return type(tree).__name__ in ("Abs", "norm", "sum")

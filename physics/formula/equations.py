@@ -117,9 +117,23 @@ class Letters:
         kind = None if about is None else self.parts[about].kind
         if base == "W" and kind in SOLIDS:
             return self._name(f"m_{about}", about, within) * self._name("g", about, (*within, name))
-        letter = Letter(base, about if kind is not None and quantity_of(base, kind) is not None else None)
+        letter = Letter(base, self._whose(base, about))
         self.unknown[letter.symbol] = letter
         return letter.symbol
+
+    def _whose(self, name: str, component: str | None) -> str | None:
+        """The component's that an equation is of, where it can have such a thing; T of a body that hangs
+        from a wire is the wire's."""
+        if component is None:
+            return None
+        quantity = quantity_of(name, self.parts[component].kind)
+        if quantity is not None and quantity.role == "period":
+            wires = [
+                part.label for part in self.parts.values() if part.kind == "wire" and component in part.ends
+            ]
+            if wires:
+                return wires[0] if len(wires) == 1 else None
+        return None if quantity is None else component
 
     def _let(self, letter: Letter, tree: Node) -> Node:
         """The letter for a value that is a number; the tree for one that has unknowns."""

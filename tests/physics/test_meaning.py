@@ -3,23 +3,16 @@
 from __future__ import annotations
 
 import pytest
-from physics_pages import page, rectangle
+from formula_pages import BALL, FLOOR, PARTS, WIRE
+from physics_pages import page
 
 from physics.build import build
 from physics.formula.meaning import read
 from physics.formula.quantities import INSTEAD, QUANTITIES, quantities_named, quantity_of
 from physics.formula.si import ACCELERATION, ENERGY, FORCE, LENGTH, MASS, NUMBER, TIME, VELOCITY, Dimension
 from sketch.formula.parse import parse
-from sketch.page import Component
-from sketch.shapes import COMPONENT_KINDS, Circle, ComponentKind, Polygon, Spring, Wire
+from sketch.shapes import COMPONENT_KINDS, ComponentKind
 
-FLOOR = Component(rectangle(0, 380, 500, 420), label="A", fixed=True)
-BALL = Component(Circle((200.0, 160.0), 20.0), label="B")
-BOX = Component(rectangle(300, 340, 340, 380), label="C")
-WIRE = Component(Wire((200.0, 40.0), (200.0, 140.0)), label="D", ends=(None, "B"))
-SPRING = Component(Spring((320.0, 40.0), (320.0, 340.0), 5, 20), label="E", ends=(None, "C"))
-INCLINE = Component(Polygon([(600, 400), (900, 400), (900, 300)]), label="F")
-PARTS = (FLOOR, BALL, BOX, WIRE, SPRING, INCLINE)
 LABELS: dict[str, str] = {"circle": "B", "polygon": "C", "spring": "E", "wire": "D"}
 
 
