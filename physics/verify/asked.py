@@ -4,8 +4,8 @@ A page asks by leaving a quantity to be found, and a student answers by associat
 thing that has it. Three kinds of names are answers; everything else is given.
 
 - **A force that stands in for the engine's own**: a scalar normal force of a solid that rests on something
-  (`N`, `f_1`, `F`, `R`) and a wire's tension (`T`, `T_1`); and friction, `f_s` or `f_k` (static, kinetic),
-  by its size.
+  (`N`, `f_1`, `F`, `R`) and a wire's tension (`T`, `T_1`); and friction, `f_s` or `f_k` (static, kinetic;
+  or `F_s`, `F_k`), by its size.
 - **An observable**: a name below with the moment as its subscript, after an axis or a kind where it has
   one: `v_f`, `v_xf`, `x_max`, `E_kf`, `t_s`.
 
@@ -13,7 +13,7 @@ thing that has it. Three kinds of names are answers; everything else is given.
       x  y  h        way right, up, up again       p  p_x p_y   momentum, by its size, and its parts
       E_k  E_p       kinetic, potential energy     omega        angular velocity
       Q              heat of the whole scene       t            the moment itself
-      T  tau         period (of a solid; no moment)
+      T              period (of a solid; no moment)
 
   x, y, h and E_p are measured from where the solid was drawn. The moments:
 
@@ -103,9 +103,9 @@ _NAMES: dict[str, _Name] = {
     "Q": _Name("heat", "J"),
     "t": _Name("time", "s", given=True),
     "T": _Name("period", "s", moments=False),
-    "tau": _Name("period", "s", moments=False),
 }
-_NORMAL, _FRICTION = ("f", "F", "N", "R"), ("f_s", "f_k")
+_NORMAL = ("f", "F", "N", "R")
+_FRICTION = ("f_s", "f_k", "F_s", "F_k")
 
 
 def asked(name: str, kind: ComponentKind) -> Asked | None:
@@ -115,11 +115,11 @@ def asked(name: str, kind: ComponentKind) -> Asked | None:
         return Asked("tension", _moment_in(below), "N") if base == "T" else None
     if kind not in ("circle", "polygon"):
         return None
-    stem, moment = _parted(name)
-    if stem in _FRICTION:
-        return Asked("friction", moment, "N")
+    if name in _FRICTION:
+        return Asked("friction", "", "N")
     if base in _NORMAL:
         return None if below[-1:] in ("x", "y") else Asked("normal", _moment_in(below), "N")
+    stem, moment = _parted(name)
     found = _NAMES.get(stem)
     if found is None or (found.given and moment in ("", "0")) or (moment and not found.moments):
         return None

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import sympy
 
-from physics.formula.meaning import Meanings, quantity_of
+from physics.formula.meaning import Meanings, Role
 from physics.formula.program import Node
 from physics.verify.misconceptions import Misconception
 from sketch.formula.print import plain
@@ -50,12 +50,10 @@ def mistaken(
     sketch: Sketch, meanings: Meanings, masses: Mapping[str, float], g: float
 ) -> Iterator[tuple[Misconception, Sketch]]:
     """The page as each misconception that is in the physics sees it. masses: of the movable solids, kg."""
-    yield "forgot g", saying(sketch, "g", sympy.Integer(1))
-    yield "forgot gravity", saying(sketch, "g", sympy.Integer(0))
-    yield "gravity upwards", saying(sketch, "g", sympy.Float(-g))
     turned = _turned(sketch)
     if turned != sketch:
         yield "sine for cosine", turned
+    yield "forgot g", saying(sketch, "g", sympy.Integer(1))
     heavy = sketch
     for label, mass in masses.items():
         heavy = saying(heavy, "m", sympy.Float(mass * g), label)
@@ -74,22 +72,23 @@ def mistaken(
     if moving:
         still = sketch
         for said in meanings.said:
-            kind = None if said.component is None else sketch.component(said.component).kind
-            quantity = quantity_of(said.name, kind)
-            if quantity is not None and quantity.role in ("velocity", "v_x", "v_y"):
-                zero = sympy.Tuple(0, 0) if quantity.role == "velocity" else sympy.Integer(0)
+            if said.quantity is not None and said.quantity.role in ("velocity", "v_x", "v_y"):
+                zero = sympy.Tuple(0, 0) if said.quantity.role == "velocity" else sympy.Integer(0)
                 still = saying(still, said.name, zero, said.component)
         yield "forgot the start velocity", still
 
 
-def _labels(meanings: Meanings, role: str) -> list[str]:
+def weightless(sketch: Sketch, g: float) -> Iterator[tuple[Misconception, Sketch]]:
+    """The page with another gravity: so different that it is thought of last."""
+    yield "forgot gravity", saying(sketch, "g", sympy.Integer(0))
+    yield "gravity upwards", saying(sketch, "g", sympy.Float(-g))
+
+
+def _labels(meanings: Meanings, role: Role) -> list[str]:
     found = [
         said.component
         for said in meanings.said
-        for kind in ("circle", "polygon")
-        if said.component is not None
-        and (quantity := quantity_of(said.name, kind)) is not None
-        and quantity.role == role
+        if said.component is not None and said.quantity is not None and said.quantity.role == role
     ]
     return list(dict.fromkeys(found))
 

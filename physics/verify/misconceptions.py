@@ -5,14 +5,13 @@ formula gives the true value, that was the mistake. An answer that is a number i
 misconception makes of the true value: by a factor or a sign, or, where it is in the physics (friction
 forgotten, weight taken for mass), by the true value of the page changed accordingly, which the engine finds.
 
-The order of `MISCONCEPTIONS` is that of belief: of several that explain an answer to all its digits, the
-first is named, then those that explain it less closely.
+Several may explain one answer. They are tried in the order of belief: a sign, then what is in the physics,
+then factors, from the common to the rare.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
 from math import cos, degrees, pi, sin, sqrt, tan
 from typing import Literal, get_args
 
@@ -31,8 +30,6 @@ Misconception = Literal[
     "inelastic for elastic",
     "masses exchanged",
     "forgot the start velocity",
-    "forgot gravity",
-    "gravity upwards",
     "factor 2",
     "forgot the root",
     "forgot the square",
@@ -41,6 +38,8 @@ Misconception = Literal[
     "left out the angle",
     "factor 2 under the root",
     "unit not converted",
+    "forgot gravity",
+    "gravity upwards",
     "rounded too coarsely",
 ]
 MISCONCEPTIONS: tuple[Misconception, ...] = get_args(Misconception)
@@ -116,27 +115,22 @@ def _parts(tree: Node, kind: type) -> list[Node]:
 
 def of_number(true: float, angles: tuple[float, ...], g: float) -> Iterator[tuple[Misconception, float]]:
     """What each misconception that is a mere factor makes of the true value. angles: rad, of the page."""
-    yield "wrong sign", -true
     for angle in angles:
         if 0 < angle < pi / 2:
             yield "sine for cosine", true * tan(angle)
             yield "sine for cosine", true / tan(angle)
             for function in (sin, cos, tan):
                 read = function(degrees(angle))
-                yield "degrees for radians", true * read / function(angle)
-                yield "degrees for radians", true * function(angle) / read
-                yield "degrees for radians", true * abs(read) / function(angle)
-    yield "forgot g", true / g
-    yield "forgot g", true / sqrt(g)
-    yield "forgot g", true * sqrt(g)
-    yield "weight for mass", true * g
+                for factor in (read / function(angle), function(angle) / read):
+                    yield "degrees for radians", true * factor
+                    yield "degrees for radians", true * abs(factor)
+    for factor in (1 / g, g, sqrt(g), 1 / sqrt(g), g**2, g**-2):
+        yield "forgot g", true * factor
     for factor in (2.0, 0.5):
         yield "factor 2", true * factor
     yield "forgot the root", true * true
     if true > 0:
         yield "forgot the square", sqrt(true)
-    if true:
-        yield "turned upside down", 1 / true
     for factor in (2 * pi, 1 / (2 * pi)):
         yield "forgot 2 pi", true * factor
     for angle in angles:
@@ -145,26 +139,7 @@ def of_number(true: float, angles: tuple[float, ...], g: float) -> Iterator[tupl
             yield "left out the angle", true * function(angle)
     for factor in (sqrt(2), sqrt(0.5)):
         yield "factor 2 under the root", true * factor
+    if true:
+        yield "turned upside down", 1 / true
     for factor in (100.0, 0.01, 1000.0, 0.001, 3.6, 1 / 3.6):
         yield "unit not converted", true * factor
-
-
-Fit = Callable[[float], float | None]
-
-
-@dataclass(frozen=True, slots=True)
-class Explained:
-    """A misconception that makes the given answer of the true value; off: relative difference between what
-    it makes and what was given."""
-
-    misconception: Misconception
-    off: float
-
-
-def likeliest(found: list[Explained], exact: float, near: float) -> Misconception | None:
-    """Of those within `exact` (relative) the first by belief, else of those within `near`."""
-    for limit in (exact, near):
-        within = [one.misconception for one in found if one.off <= limit]
-        if within:
-            return min(within, key=MISCONCEPTIONS.index)
-    return None

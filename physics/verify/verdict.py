@@ -12,6 +12,7 @@ right.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import isfinite
 from typing import Literal
@@ -26,12 +27,10 @@ from physics.parts.links import RULE as LINKS
 from physics.rectify import rectify
 from physics.scene import Scene, SceneError
 from physics.verify.asked import Asked, asked
-from physics.verify.changed import ANGLES, mistaken, saying, without
+from physics.verify.changed import ANGLES, mistaken, saying, weightless, without
 from physics.verify.misconceptions import (
     WORDS,
-    Explained,
     Misconception,
-    likeliest,
     of_formula,
     of_number,
 )
@@ -110,15 +109,12 @@ def verify(sketch: Sketch) -> tuple[Verdict, ...]:
 
 def _answers(sketch: Sketch, meanings: Meanings) -> list[_Answer]:
     found: list[_Answer] = []
-    for association in sketch.associations:
-        text = sketch.expressions[association.expression].text
-        kind = sketch.component(association.component).kind
-        for said in meanings.said:
-            if said.component != association.component or said.text != text:
-                continue
-            what = asked(said.name, kind)
-            if what is not None and not isinstance(said.tree, sympy.Tuple):
-                found.append(_Answer(association.expression, said.component, said, what))
+    for said in meanings.said:
+        if said.component is None or said.expression is None or isinstance(said.tree, sympy.Tuple):
+            continue
+        what = asked(said.name, sketch.component(said.component).kind)
+        if what is not None:
+            found.append(_Answer(said.expression, said.component, said, what))
     return found
 
 
@@ -301,39 +297,55 @@ def _opened(bare: Sketch) -> list[tuple[str, str, float, str]]:
 def _explained(
     page: _Page, meanings: Meanings, answer: _Answer, given: float, true: float
 ) -> Misconception | None:
-    found: list[Explained] = []
+    """The misconception that makes the given answer of the true value to all its digits, the likeliest of
+    several; where none does, one that comes near."""
+    exact, half = _written(answer, given)
+    if abs(given - true) <= min(JUDGING.rounding * half, JUDGING.coarse * abs(true)):
+        return "rounded too coarsely"
+    nearest: Misconception | None = None
+    for cause, made, wanted in _compared(page, meanings, answer, given, true):
+        off = abs(made - wanted) / max(abs(wanted), JUDGING.absolute)
+        if off <= exact:
+            return cause
+        if off <= JUDGING.near and nearest is None:
+            nearest = cause
+    return nearest
 
-    def compare(cause: Misconception, value: float | None, with_: float) -> None:
-        if value is not None and isfinite(value):
-            off = abs(value - with_) / max(abs(with_), JUDGING.absolute)
-            found.append(Explained(cause, off))
 
-    tree = answer.said.tree
-    if tree.free_symbols:
-        for cause, corrected in of_formula(tree):
-            compare(cause, page.value(corrected, meanings), true)
-        exact = JUDGING.formula
-    else:
-        exact, half = _written(answer.said.text, given)
-        if abs(given - true) <= JUDGING.rounding * half and abs(given - true) <= JUDGING.coarse * abs(true):
-            return "rounded too coarsely"
+def _compared(
+    page: _Page, meanings: Meanings, answer: _Answer, given: float, true: float
+) -> Iterator[tuple[Misconception, float, float]]:
+    """(misconception, what it makes, what that must be): of a formula, corrected, the true value; of the true
+    value, spoilt, the given one."""
+    if answer.said.tree.free_symbols:
+        for cause, corrected in of_formula(answer.said.tree):
+            value = page.value(corrected, meanings)
+            if value is not None:
+                yield cause, value, true
+    yield "wrong sign", -true, given
     g = -page.scene.gravity[1]
-    for cause, value in of_number(true, _angles(page), abs(g) or 1.0):
-        compare(cause, value, given)
     masses = {body.label: body.mass for body in page.scene.bodies if not body.fixed}
-    for cause, other in mistaken(page.sketch, page.meanings, masses, g):
+    yield from _spoilt(page, answer, given, mistaken(page.sketch, page.meanings, masses, g))
+    for cause, value in of_number(true, _angles(page), abs(g) or 1.0):
+        yield cause, value, given
+    yield from _spoilt(page, answer, given, weightless(page.sketch, g))
+
+
+def _spoilt(
+    page: _Page, answer: _Answer, given: float, pages: Iterable[tuple[Misconception, Sketch]]
+) -> Iterator[tuple[Misconception, float, float]]:
+    """The true values of pages as misconceptions see them, where they have one."""
+    for cause, other in pages:
         try:
             seen = _asked_of(page.sketch, rectify(other).sketch, answer)
-            compare(cause, seen.true(), given)
+            yield cause, seen.true(), given
         except (NotDetermined, SceneError):
             continue
-    return likeliest(found, exact, JUDGING.near)
 
 
-
-def _written(text: str, value: float) -> tuple[float, float]:
+def _written(answer: _Answer, value: float) -> tuple[float, float]:
     """(relative, SI) what rounding to the digits that were written may have changed."""
-    found = re.fullmatch(r"[^=]*=\s*-?\s*(\d+)?(?:\.(\d+))?", text.strip())
+    found = re.fullmatch(r"[^=]*=\s*-?\s*(\d+)?(?:\.(\d+))?", answer.said.text.strip())
     if found is None:
         return JUDGING.formula, 0.0
     half = 0.5 * 10.0 ** -len(found.group(2) or "")
