@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 import sympy
@@ -50,10 +50,12 @@ def mistaken(
     sketch: Sketch, meanings: Meanings, masses: Mapping[str, float], g: float
 ) -> Iterator[tuple[Misconception, Sketch]]:
     """The page as each misconception that is in the physics sees it. masses: of the movable solids, kg."""
-    turned = _turned(sketch)
+    turned = _angled(sketch, lambda angle: sympy.pi / 2 - angle)
     if turned != sketch:
         yield "sine for cosine", turned
     yield "forgot g", saying(sketch, "g", sympy.Integer(1))
+    if turned != sketch:
+        yield "degrees for radians", _angled(sketch, lambda angle: 180 * angle / sympy.pi)
     heavy = sketch
     for label, mass in masses.items():
         heavy = saying(heavy, "m", sympy.Float(mass * g), label)
@@ -99,14 +101,14 @@ def _said_of_all(sketch: Sketch, labels: list[str], name: str, value: int) -> Sk
     return sketch
 
 
-def _turned(sketch: Sketch) -> Sketch:
-    """The page with every angle's complement in its place."""
+def _angled(sketch: Sketch, change: Callable[[Node], Node]) -> Sketch:
+    """The page with every angle changed."""
 
-    def turned(one: Expression) -> Expression:
+    def changed(one: Expression) -> Expression:
         tree = one.tree
         if not isinstance(tree, sympy.Equality) or str(tree.lhs).partition("_")[0] not in ANGLES:
             return one
-        other = sympy.Equality(tree.lhs, sympy.pi / 2 - tree.rhs, evaluate=False)
+        other = sympy.Equality(tree.lhs, change(tree.rhs), evaluate=False)
         return Expression(plain(other), one.strokes, one.at, tree=other)
 
-    return replace(sketch, expressions=tuple(turned(one) for one in sketch.expressions))
+    return replace(sketch, expressions=tuple(changed(one) for one in sketch.expressions))

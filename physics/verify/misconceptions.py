@@ -96,10 +96,13 @@ def of_formula(tree: Node) -> Iterator[tuple[Misconception, Node]]:
         yield "factor 2", tree * factor
     yield "forgot the root", sympy.sqrt(tree)
     yield "forgot the square", tree**2
-    for symbol in sorted(tree.free_symbols, key=str):
-        if symbol.name in ("t", "omega") or symbol.name[0] == "v":
-            yield "forgot the square", tree * symbol
+    for symbol in sorted(tree.free_symbols - {g, m, weight}, key=str):
+        yield "forgot the square", tree * symbol
+        yield "forgot the square", tree / symbol
     yield "turned upside down", 1 / tree
+    for root in _parts(tree, sympy.Pow):
+        if abs(root.exp) == sympy.Rational(1, 2):
+            yield "turned upside down", tree.xreplace({root: 1 / root})
     yield "forgot 2 pi", tree * 2 * sympy.pi
     for call in sorted(tree.atoms(sympy.Function), key=str):
         if isinstance(call, sympy.sin | sympy.cos | sympy.tan):
@@ -124,7 +127,7 @@ def of_number(true: float, angles: tuple[float, ...], g: float) -> Iterator[tupl
                 for factor in (read / function(angle), function(angle) / read):
                     yield "degrees for radians", true * factor
                     yield "degrees for radians", true * abs(factor)
-    for factor in (1 / g, g, sqrt(g), 1 / sqrt(g), g**2, g**-2):
+    for factor in (1 / g, g, sqrt(g), 1 / sqrt(g)):
         yield "forgot g", true * factor
     for factor in (2.0, 0.5):
         yield "factor 2", true * factor
@@ -143,3 +146,5 @@ def of_number(true: float, angles: tuple[float, ...], g: float) -> Iterator[tupl
         yield "turned upside down", 1 / true
     for factor in (100.0, 0.01, 1000.0, 0.001, 3.6, 1 / 3.6):
         yield "unit not converted", true * factor
+    for factor in (g**2, g**-2):
+        yield "forgot g", true * factor
