@@ -127,6 +127,7 @@ def of_number(true: float, angles: tuple[float, ...], g: float) -> Iterator[tupl
                 for factor in (read / function(angle), function(angle) / read):
                     yield "degrees for radians", true * factor
                     yield "degrees for radians", true * abs(factor)
+                    yield "degrees for radians", true * factor**2
     for factor in (1 / g, g, sqrt(g), 1 / sqrt(g)):
         yield "forgot g", true * factor
     for factor in (2.0, 0.5):

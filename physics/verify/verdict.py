@@ -59,7 +59,7 @@ class Judging:
     whether the true value hangs on it."""
     rounding: float = 1.02
     """Half units of the last digit that was written: a number that was rounded is off by one at most."""
-    coarse: float = 0.1
+    coarse: float = 0.05
     """Relative: what is further off than this was not merely rounded."""
 
 

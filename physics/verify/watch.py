@@ -1,7 +1,7 @@
 """A scene watched until something happens: the moments that answers speak of.
 
-SI units. The engine's dense output makes every moment exact to rounding: it is bracketed on a grid, then
-found by bisection.
+SI units. The engine's dense output makes every moment exact to rounding: it is bracketed on a grid,
+then on finer and finer ones.
 """
 
 from __future__ import annotations
@@ -86,12 +86,10 @@ class Watch:
             if len(ends):
                 first = int(ends[0])
                 before = velocity[first]
-                return _bisected(
+                return _crossing(
                     run,
                     (float(run.times[first]), float(run.times[first + 1])),
-                    lambda moment, before=before: float(
-                        moment.velocities[0, moment.column(label), :2] @ before
-                    ),
+                    lambda inner, before=before: inner.velocities[:, inner.column(label), :2] @ before,
                 )
         raise NotDetermined(f"{label} does not stop within {WATCHING.horizons[-1]:g} s")
 
@@ -124,19 +122,19 @@ def _meets(event: Event, label: str) -> bool:
     return event.kind in ("impact", "bounce") and label in event.bodies and event.time > WATCHING.beside
 
 
-def _bisected(
-    run: Trajectory, span: tuple[float, float], sign: Callable[[Trajectory], float]
+def _crossing(
+    run: Trajectory, span: tuple[float, float], measure: Callable[[Trajectory], FloatArray]
 ) -> float:
-    """Where `sign` is no longer positive, within rounding."""
+    """Where the measure (T,) is first no longer positive within the span, to rounding: a grid within a grid,
+    since the engine gives sixty-four moments in the time of one."""
     low, high = span
     while True:
-        middle = 0.5 * (low + high)
-        if not low < middle < high:
+        times = np.linspace(low, high, 65)
+        if not np.all(np.diff(times) > 0):
             return high
-        if sign(run.at(np.array([middle]))) > 0:
-            low = middle
-        else:
-            high = middle
+        past = np.flatnonzero(measure(run.at(times[1:-1])) <= 0)
+        first = int(past[0]) + 1 if len(past) else len(times) - 1
+        low, high = float(times[first - 1]), float(times[first])
 
 
 def _period(run: Trajectory, label: str) -> float | None:
@@ -152,10 +150,10 @@ def _period(run: Trajectory, label: str) -> float | None:
     if len(rises) < 2:
         return None
     first, second = (
-        _bisected(
+        _crossing(
             run,
             (float(run.times[k]), float(run.times[k + 1])),
-            lambda moment: level - float(moment.path(label)[0, axis]),
+            lambda inner: level - inner.path(label)[:, axis],
         )
         for k in rises[:2]
     )
