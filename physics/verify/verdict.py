@@ -24,6 +24,7 @@ from physics.formula.meaning import Meanings, Said, read
 from physics.formula.names import constant_of, lookup, solid_of
 from physics.formula.program import STATE, Node, ProgramError, compile_tree
 from physics.parts.links import RULE as LINKS
+from physics.parts.pulleys import drawn_as
 from physics.rectify import rectify
 from physics.scene import Scene, SceneError
 from physics.verify.asked import Asked, asked
@@ -120,12 +121,14 @@ def _answers(sketch: Sketch, meanings: Meanings) -> list[_Answer]:
 
 @dataclass(frozen=True, slots=True)
 class _Page:
-    """A page without its answers, set up to be asked. names: what the answers' formulas may use."""
+    """A page without its answers, set up to be asked. label: of what the answer is
+    associated with."""
 
     sketch: Sketch
     meanings: Meanings
     scene: Scene
     about: About
+    label: str
 
     def true(self) -> float:
         return true_value(self.scene, self.about)
@@ -133,7 +136,7 @@ class _Page:
     def value(self, tree: Node, names: Meanings) -> float | None:
         """What an answer's formula gives here, at the moment that is asked about; None if nothing."""
         masses = {body.label: body.mass for body in self.scene.bodies}
-        find = lookup(self.sketch, names, self.about.label, masses, -self.scene.gravity[1])
+        find = lookup(self.sketch, names, self.label, masses, -self.scene.gravity[1])
         try:
             program = compile_tree(tree, find)
         except ProgramError:
@@ -142,7 +145,7 @@ class _Page:
             return None
         state = [0.0] * (len(STATE) * (1 + len(program.others)))
         if not program.constant:
-            state = self._state((solid_of(self.sketch, self.about.label), *program.others))
+            state = self._state((solid_of(self.sketch, self.label), *program.others))
         value = program.value(state)
         return value if isfinite(value) else None
 
@@ -164,13 +167,14 @@ def _asked_of(sketch: Sketch, bare: Sketch, answer: _Answer) -> _Page:
     """The page without answers, and what is asked of it. Raises NotDetermined, SceneError."""
     meanings = read(bare)
     scene = build(bare).scene
-    on = None
+    on, label = None, answer.label
     if answer.asked.kind in ("normal", "friction"):
         on = _support(sketch, answer, scene)
         if on is None:
             raise NotDetermined(f"{answer.label} rests on nothing, so there is no such force")
     elif answer.asked.kind == "tension":
-        if all(wire.label != answer.label for wire in scene.wires):
+        label = drawn_as(bare, answer.label)
+        if all(wire.label != label for wire in scene.wires):
             raise NotDetermined(f"{answer.label} joins nothing that it could hold")
     elif all(body.label != answer.label or body.fixed for body in scene.bodies):
         raise NotDetermined(f"{answer.label} cannot move")
@@ -178,7 +182,7 @@ def _asked_of(sketch: Sketch, bare: Sketch, answer: _Answer) -> _Page:
     at = None
     if time is not None and time.component is None:
         at = constant_of(time, lookup(bare, meanings, None, {}, -scene.gravity[1]))
-    return _Page(bare, meanings, scene, About(answer.asked, answer.label, on, at))
+    return _Page(bare, meanings, scene, About(answer.asked, label, on, at), answer.label)
 
 
 def _support(sketch: Sketch, answer: _Answer, scene: Scene) -> str | None:
