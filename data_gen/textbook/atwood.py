@@ -64,8 +64,7 @@ def hanging(rng: np.random.Generator) -> Machine:
     texts = [str(text) for text in rng.choice(RANGES.masses, size=2, replace=False)]
     g, given = maybe_gravity(rng)
     given += tuple(
-        remark(f"m = {text}", name, spot)
-        for text, name, (_, spot) in zip(texts, names, loads, strict=True)
+        remark(f"m = {text}", name, spot) for text, name, (_, spot) in zip(texts, names, loads, strict=True)
     )
     wires = [
         Component(Wire(point(side), point(low)), label=wire, ends=("wheel", name))

@@ -178,9 +178,7 @@ def on_a_hill(rng: np.random.Generator) -> Exercise:
     top = xy(300 + rng.uniform(-60, 60), rng.uniform(130, 170))
     hill = top + xy(0, PER_METRE * distance)
     g, given = maybe_gravity(rng)
-    speed_text, speed = pick(
-        rng, [text for text in RANGES.speeds if float(text) < 0.8 * sqrt(g * distance)]
-    )
+    speed_text, speed = pick(rng, [text for text in RANGES.speeds if float(text) < 0.8 * sqrt(g * distance)])
     mass_text, mass = pick(rng, RANGES.masses)
     ball = point(top)
     given += (

@@ -61,7 +61,8 @@ def braking(rng: np.random.Generator) -> Braking:
     mass_text, mass = pick(rng, RANGES.masses)
     g, given = maybe_gravity(rng)
     given += tuple(
-        remark(text, "box", middle) for text in (f"m = {mass_text}", f"mu = {rough_text}", f"v_x = {speed_text}")
+        remark(text, "box", middle)
+        for text in (f"m = {mass_text}", f"mu = {rough_text}", f"v_x = {speed_text}")
     )
     parts = (
         block("floor", rectangle(xy(10, ground), xy(590, ground + 25)), fixed=True),

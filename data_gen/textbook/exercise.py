@@ -133,4 +133,3 @@ def pick(rng: np.random.Generator, texts: Sequence[str]) -> tuple[str, float]:
     """One of several numbers, as written and as it is."""
     text = str(rng.choice(texts))
     return text, float(text)
-

@@ -55,7 +55,9 @@ class Watch:
         """The motion of the first `seconds`, on the grid. Raises NotDetermined where a formula stops it."""
         self._run.run_to(seconds)
         if self._run.stopped < seconds:
-            raise NotDetermined(f"a formula of the page has no value {self._run.stopped:.3g} s after the start")
+            raise NotDetermined(
+                f"a formula of the page has no value {self._run.stopped:.3g} s after the start"
+            )
         return self._run.trajectory(WATCHING.rate, seconds)
 
     def at(self, time: float) -> Trajectory:
