@@ -155,7 +155,7 @@ def struck_pendulum(rng: np.random.Generator) -> Exercise:
     high = xy(300 + rng.uniform(-40, 40), rng.uniform(60, 90))
     centre = high + xy(0, PER_METRE * length)
     low = centre - xy(0, radius)
-    mass_text, mass = pick(rng, RANGES.masses)
+    mass_text, _mass = pick(rng, RANGES.masses)
     g, given = maybe_gravity(rng)
     speed = spin * length
     ball = point(centre)

@@ -9,7 +9,6 @@ from math import cos, degrees, pi, sin, tan
 import numpy as np
 
 from data_gen.diagrams.problem import (
-    PER_METRE,
     Remark,
     Span,
     block,

@@ -130,13 +130,13 @@ def asked(name: str, kind: ComponentKind) -> Asked | None:
 
 def _moment_in(below: str) -> Moment:
     """Of a force's subscript, which mostly counts or names forces, the moment."""
-    return next((moment for moment in MOMENTS if below == moment and moment in ("max", "min")), "")
+    return "max" if below == "max" else "min" if below == "min" else ""
 
 
 def _parted(name: str) -> tuple[str, Moment]:
     """The quantity's own name, and the moment: E_kf is (E_k, f), v_x is (v_x, ""), a_1 is (a, "")."""
     base, _, below = name.partition("_")
-    if not below or below.isdigit() and below != "0":
+    if not below or (below.isdigit() and below != "0"):
         return base, ""
     if below in MOMENTS:
         return base, below

@@ -30,7 +30,8 @@ def without(sketch: Sketch, expressions: set[int]) -> Sketch:
 
 def saying(sketch: Sketch, name: str, tree: Node, component: str | None = None) -> Sketch:
     """The page with one thing more said: the newest holds."""
-    equation = sympy.Equality(sympy.Symbol(name), tree, evaluate=False)
+    left = sympy.Symbol(name)
+    equation = sympy.Equality(left, tree, evaluate=False)
     expressions = (*sketch.expressions, Expression(plain(equation), tree=equation))
     if component is None:
         # What is said of the whole page is read before what is associated, so the older ones go.
@@ -38,7 +39,7 @@ def saying(sketch: Sketch, name: str, tree: Node, component: str | None = None) 
         older = {
             number
             for number, one in enumerate(sketch.expressions)
-            if number not in bound and isinstance(one.tree, sympy.Equality) and one.tree.lhs == equation.lhs
+            if number not in bound and isinstance(one.tree, sympy.Equality) and one.tree.lhs == left
         }
         cleared = without(sketch, older)
         return replace(cleared, expressions=(*cleared.expressions, expressions[-1]))

@@ -347,13 +347,19 @@ def _spoilt(
             continue
 
 
+_NUMBER = re.compile(r"[^=]*=\s*-?\s*(?P<whole>\d*)(?:\.(?P<part>\d+))?\s*(?P<unit>[^\d\s].*)?")
+
+
 def _written(answer: _Answer, value: float) -> tuple[float, float]:
-    """(relative, SI) what rounding to the digits that were written may have changed."""
-    found = re.fullmatch(r"[^=]*=\s*-?\s*(\d+)?(?:\.(\d+))?", answer.said.text.strip())
-    if found is None:
+    """(relative, SI) what rounding to the digits that were written may have changed; of a formula nothing."""
+    found = _NUMBER.fullmatch(answer.said.text.strip())
+    if found is None or answer.said.tree.free_symbols or not answer.said.tree.is_number:
         return JUDGING.formula, 0.0
-    half = 0.5 * 10.0 ** -len(found.group(2) or "")
-    return min(JUDGING.rounding * half / max(abs(value), JUDGING.absolute), JUDGING.near), half
+    whole, part = found["whole"] or "0", found["part"] or ""
+    written = float(f"{whole}.{part or 0}")
+    # A unit scales the number and its last digit alike.
+    half = 0.5 * 10.0 ** -len(part) / written if written else 0.0
+    return min(max(JUDGING.rounding * half, JUDGING.formula), JUDGING.near), half * abs(value)
 
 
 def _angles(page: _Page) -> tuple[float, ...]:

@@ -25,6 +25,9 @@ class Watching:
     """s: until a moment is found; what takes longer on a page of six metres does not happen."""
     extremes: float = 10.0
     """s: for the greatest and the smallest value."""
+    zooms: int = 4
+    """Grids within one another for an extreme: the last is a hundred millionth of the first's step, and what
+    an extreme misses goes with the square."""
     rate: float = 120.0
     """Frames a second: things that fit on a page are not done within a hundredth of a second."""
     beside: float = 1e-9
@@ -109,15 +112,15 @@ class Watch:
         NotDetermined where it is still growing at the end."""
         run = self.until(WATCHING.extremes)
         sense = 1.0 if greatest else -1.0
-        times = run.times
-        for _ in range(4):
+        times, found = run.times, -np.inf
+        for _ in range(WATCHING.zooms):
             values = sense * np.nan_to_num(measure(run.at(times)), nan=-np.inf)
             best = int(np.argmax(values))
             if times[best] == run.times[-1]:
                 raise NotDetermined(f"it is still changing after {WATCHING.extremes:g} s")
-            span = times[max(best - 1, 0)], times[min(best + 1, len(times) - 1)]
-            times = np.linspace(*span, 41)
-        return sense * float(values.max())
+            found = float(values[best])
+            times = np.linspace(times[max(best - 1, 0)], times[min(best + 1, len(times) - 1)], 41)
+        return sense * found
 
 
 def _meets(event: Event, label: str) -> bool:
