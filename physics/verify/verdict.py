@@ -20,9 +20,11 @@ from typing import Literal
 import sympy
 
 from physics.build import build
+from physics.formula.dimensions import Finding, check
 from physics.formula.meaning import Meanings, Said, read
 from physics.formula.names import constant_of, lookup, solid_of
 from physics.formula.program import STATE, Node, ProgramError, compile_tree
+from physics.formula.units import has_units
 from physics.parts.links import RULE as LINKS
 from physics.parts.pulleys import drawn_as
 from physics.rectify import rectify
@@ -73,8 +75,9 @@ class Verdict:
 
     expression: its number on the page; component: what it is associated with; name, text: as written;
     given, true: SI, None where there is none; unit: of both; error: relative, None where the true value is
-    zero; bound: of the engine's own error, SI, None where it is not known; misconception: which known one
-    explains a wrong answer; message: a sentence for the student.
+    zero; bound: of the engine's own error, SI, None where it is not known; finding: what is wrong with its
+    dimensions, None where they go together; converted: the conversion to SI that was made, in words;
+    misconception: which known one explains a wrong answer; message: a sentence for the student.
     """
 
     expression: int
@@ -87,16 +90,21 @@ class Verdict:
     unit: str
     error: float | None
     bound: float | None
+    finding: Finding | None
+    converted: str | None
     misconception: Misconception | None
     message: str
 
 
 @dataclass(frozen=True, slots=True)
 class _Answer:
+    """number: of its expression; finding: what is wrong with its dimensions."""
+
     number: int
     label: str
     said: Said
     asked: Asked
+    finding: Finding | None
 
 
 def verify(sketch: Sketch) -> tuple[Verdict, ...]:
@@ -109,13 +117,15 @@ def verify(sketch: Sketch) -> tuple[Verdict, ...]:
 
 
 def _answers(sketch: Sketch, meanings: Meanings) -> list[_Answer]:
+    findings = {finding.expression: finding for finding in check(sketch, meanings)}
     found: list[_Answer] = []
     for said in meanings.said:
         if said.component is None or said.expression is None or isinstance(said.tree, sympy.Tuple):
             continue
         what = asked(said.name, sketch.component(said.component).kind)
         if what is not None:
-            found.append(_Answer(said.expression, said.component, said, what))
+            finding = findings.get(said.expression)
+            found.append(_Answer(said.expression, said.component, said, what, finding))
     return found
 
 
@@ -206,12 +216,20 @@ def _judged(sketch: Sketch, bare: Sketch, meanings: Meanings, answer: _Answer) -
         message = f"{answer.said.text} is not determined by this page: {reason}."
         return _verdict(answer, "not determined", given, None, None, None, message)
     margin = max(JUDGING.relative * abs(true.value), JUDGING.absolute) + (true.bound or 0.0)
-    if abs(given - true.value) <= margin:
+    near = abs(given - true.value) <= margin
+    # Numbers put in for quantities leave a formula without its dimensions, but right; units that are written
+    # must be the right ones.
+    if near and (answer.finding is None or not has_units(answer.said.given)):
         message = f"{answer.said.text} is right: {true.value:.4g} {answer.asked.unit}."
+        message += "" if answer.finding is None else f" But {answer.finding.message}"
         return _verdict(answer, "right", given, true.value, true.bound, None, message)
-    cause = _explained(page, meanings, answer, given, true.value)
-    message = f"{answer.said.text} is wrong: it is {true.value:.4g} {answer.asked.unit}"
-    message += "." if cause is None else f"; it seems that {WORDS[cause]}."
+    cause = None if near else _explained(page, meanings, answer, given, true.value)
+    parts = [f"{answer.said.text} is wrong: it is {true.value:.4g} {answer.asked.unit}"]
+    if cause is not None:
+        parts.append(f"; it seems that {WORDS[cause]}")
+    message = "".join(parts) + "."
+    if answer.finding is not None:
+        message += f" {answer.finding.message}"
     return _verdict(answer, "wrong", given, true.value, true.bound, cause, message)
 
 
@@ -237,6 +255,8 @@ def _verdict(
         answer.asked.unit,
         error,
         bound,
+        answer.finding,
+        said.converted,
         cause,
         message,
     )

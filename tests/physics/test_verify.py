@@ -161,6 +161,31 @@ def test_what_the_page_does_not_settle_is_not_determined_and_why_is_said(sketch,
     assert reason in verdict.message
 
 
+@pytest.mark.parametrize(
+    ("answer", "said"),
+    [("a = 490.5 cm/s^2", "cm"), ("a = 0.004905 km/s^2", "km")],
+)
+def test_units_are_converted_and_the_conversion_is_told(answer, said):
+    (verdict,) = verdicts(incline(answer))
+    assert verdict.status == "right", verdict.message
+    assert verdict.given == pytest.approx(G / 2, rel=1e-3)
+    assert verdict.converted is not None
+    assert said in verdict.converted
+
+
+def test_a_right_number_of_the_wrong_dimension_is_wrong_and_the_term_is_named():
+    (verdict,) = verdicts(incline("a = 4.905 m/s"))
+    assert verdict.status == "wrong"
+    assert verdict.finding is not None
+    assert verdict.finding.message in verdict.message
+    (formula,) = verdicts(incline("a = |W| sin(theta)"))
+    assert formula.status == "wrong"
+    assert formula.misconception == "weight for mass"
+    assert formula.finding is not None
+    (fine,) = verdicts(incline("a = g sin(theta)"))
+    assert fine.finding is None
+
+
 def test_what_is_given_is_no_answer():
     for name in ("m", "mu", "e", "v", "v_0", "v_x", "v_y", "x", "y", "omega", "theta", "F_x", "g", "t"):
         assert asked(name, "circle") is None
