@@ -1,7 +1,7 @@
 """Textbook problems judged: is a right answer judged right, a wrong one wrong, and is its misconception named?
 
-Every problem is drawn several times with other numbers; each answer, the right one and the wrong ones, is put
-on the page by itself, and the page is corrected and verified as a student's would be.
+Every problem is drawn several times with other numbers; the right answer and the wrong ones are put on the
+page, and the page is corrected and verified as a student's would be.
 """
 
 from __future__ import annotations
@@ -76,18 +76,22 @@ def drawn(name: Name, seed: int, draw: int) -> Exercise:
 
 
 def judge(made: Exercise, answer: Answer) -> Verdict | None:
-    """The verdict on an answer beside its problem."""
+    """The verdict on an answer that stands alone beside its problem."""
     page = rectify(meaning(in_reading_order(made.answered(answer)))).sketch
     number = len(page.expressions) - 1
     return next((verdict for verdict in verify(page) if verdict.expression == number), None)
 
 
 def _judge(task: tuple[Name, int, int]) -> list[Judged]:
+    """All answers to one draw stand beside it at once, as thirty students' would: what the engine finds out
+    for one of them serves the others."""
     name, seed, draw = task
     made = drawn(name, seed, draw)
+    page = rectify(meaning(in_reading_order(made.answered(*made.answers)))).sketch
+    verdicts = {verdict.expression: verdict for verdict in verify(page)}
     return [
-        Judged(name, draw, answer.text, answer.misconception, judge(made, answer), made.value)
-        for answer in made.answers
+        Judged(name, draw, answer.text, answer.misconception, verdicts.get(number), made.value)
+        for number, answer in enumerate(made.answers, start=len(made.given))
     ]
 
 

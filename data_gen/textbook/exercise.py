@@ -57,9 +57,9 @@ class Exercise:
     answers: tuple[Answer, ...]
     seconds: float
 
-    def answered(self, answer: Answer) -> Problem:
-        """The page with that answer beside what is given."""
-        remarks = (*self.given, Remark(answer.text, (self.about,)))
+    def answered(self, *answers: Answer) -> Problem:
+        """The page with these answers after what is given."""
+        remarks = (*self.given, *(Remark(answer.text, (self.about,)) for answer in answers))
         return Problem(self.components, remarks, self.seconds, Expected({}))
 
 
