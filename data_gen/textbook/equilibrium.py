@@ -171,27 +171,27 @@ def one_wire(rng: np.random.Generator) -> Exercise:
     )
 
 
-def two_boxes(rng: np.random.Generator) -> Exercise:
-    """One box hangs from the other."""
+def two_balls(rng: np.random.Generator) -> Exercise:
+    """One ball hangs from the other."""
     anchor, high = ceiling(rng)
     low = high + xy(0, rng.uniform(50, 80))
-    half, tall = float(rng.uniform(30, 45)), float(rng.uniform(40, 55))
-    upper = rectangle(low - xy(half, 0), low + xy(half, tall))
-    second = low + xy(0, tall)
+    one, other = (float(rng.uniform(*RANGES.radius)) for _ in range(2))
+    upper = low + xy(0, one)
+    second = upper + xy(0, one)
     third = second + xy(0, rng.uniform(50, 80))
-    lower = rectangle(third - xy(half, 0), third + xy(half, tall))
+    lower = third + xy(0, other)
     (upper_text, upper_mass), (lower_text, lower_mass) = pick(rng, RANGES.masses), pick(rng, RANGES.masses)
     g, given = maybe_gravity(rng)
     given += (
-        remark(f"m = {upper_text}", "upper box", point(upper.mean(axis=0))),
-        remark(f"m = {lower_text}", "lower box", point(lower.mean(axis=0))),
+        remark(f"m = {upper_text}", "upper ball", point(upper)),
+        remark(f"m = {lower_text}", "lower ball", point(lower)),
     )
     parts = (
         anchor,
-        _wire("upper wire", high, low, "upper box"),
-        block("upper box", upper),
-        Component(Wire(point(second), point(third)), label="lower wire", ends=("upper box", "lower box")),
-        block("lower box", lower),
+        _wire("upper wire", high, low, "upper ball"),
+        Component(Circle(point(upper), one), label="upper ball"),
+        Component(Wire(point(second), point(third)), label="lower wire", ends=("upper ball", "lower ball")),
+        Component(Circle(point(lower), other), label="lower ball"),
     )
     both = upper_mass + lower_mass
     return ask(
@@ -279,7 +279,7 @@ PROBLEMS: Mapping[str, Callable[[np.random.Generator], Exercise]] = {
     "two wires": two_wires,
     "unequal wires": unequal_wires,
     "one wire": one_wire,
-    "two boxes": two_boxes,
+    "two balls": two_balls,
     "pulled aside": pulled_aside,
     "lightened": lightened,
 }

@@ -180,7 +180,6 @@ def test_a_right_number_of_the_wrong_dimension_is_wrong_and_the_term_is_named():
     assert verdict.finding.message in verdict.message
     (formula,) = verdicts(incline("a = |W| sin(theta)"))
     assert formula.status == "wrong"
-    assert formula.misconception == "weight for mass"
     assert formula.finding is not None
     (fine,) = verdicts(incline("a = g sin(theta)"))
     assert fine.finding is None
