@@ -14,10 +14,15 @@ from data_gen.pages import Page
 from data_gen.pages import drawn as inked
 from data_gen.problems import in_reading_order
 from data_gen.textbook.roster import exercise
-from evaluation.page_contest import read_page, score_page, true_reading
+from evaluation.metrics.diagram import diagram_match
+from evaluation.metrics.matching import match_components
+from evaluation.metrics.motion import same_outcome
+from evaluation.page_contest import claimed
 from evaluation.parallel import Progress, in_parallel, silent
 from evaluation.table import Cell, Table
 from evaluation.textbook import Name
+from physics.outcome import outcome
+from physics.pipeline import move
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,11 +67,13 @@ def penned(name: Name, seed: int, index: int) -> Page:
 def _read(task: tuple[Name, int, int, Sequence[str]]) -> list[Penned]:
     name, seed, index, recognizers = task
     page = penned(name, seed, index)
-    truth = true_reading(page)
+    truth = outcome(move(page.truth, page.seconds))
     found: list[Penned] = []
     for recognizer in recognizers:
-        score = score_page(page, truth, read_page(page, recognizer))
-        found.append(Penned(name, index, recognizer, score.same_outcome, score.match.exact))
+        claim = claimed(page, recognizer)
+        seen = outcome(move(claim, page.seconds))
+        same = same_outcome(match_components(page.truth, claim), truth, seen)
+        found.append(Penned(name, index, recognizer, same, diagram_match(page.truth, claim).exact))
     return found
 
 
