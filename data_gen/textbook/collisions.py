@@ -72,6 +72,8 @@ def meeting(rng: np.random.Generator, restitutions: tuple[str, ...]) -> Meeting:
         remark(f"v_x = {text if side > 0 else '-' + text}", "first", spots[0]),
         remark(f"e = {bounce_text}", "first", spots[0]),
         remark(f"e = {bounce_text}", "second", spots[1]),
+        # Of balls that differ by a pen's width one is pressed down as they meet: it must not hop for ever.
+        remark("e = 0", "floor", (300.0, ground + 15)),
     )
     parts = (
         Component(Circle(spots[0], radius), label="first"),

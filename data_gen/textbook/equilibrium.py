@@ -41,6 +41,9 @@ class HeldRanges:
     half: Span = (40.0, 55.0)
     masses: tuple[str, ...] = ("0.5", "1.5", "2", "3", "4")
     pulls: tuple[str, ...] = ("4", "5", "6", "8")
+    hanging: float = 0.5
+    """s: a given tension holds a ball on a wire that a pen drew aslant for so long; no angle is said that
+    could put it right."""
 
 
 RANGES = HeldRanges()
@@ -156,7 +159,7 @@ def one_wire(rng: np.random.Generator) -> Exercise:
     formula = rng.random() < 0.5
     return ask(
         "What is the wire's tension?",
-        Situation(parts, given, 1.0),
+        Situation(parts, given, RANGES.hanging),
         ("wire", point(0.5 * (high + low))),
         "T",
         "N",
@@ -196,7 +199,7 @@ def two_balls(rng: np.random.Generator) -> Exercise:
     both = upper_mass + lower_mass
     return ask(
         "What is the tension of the upper wire?",
-        Situation(parts, given, 1.0),
+        Situation(parts, given, RANGES.hanging),
         ("upper wire", point(0.5 * (high + low))),
         "T",
         "N",
