@@ -23,6 +23,8 @@ class PulleyRanges:
 
     wheel: Span = (38.0, 55.0)
     half: Span = (20.0, 30.0)
+    clear: float = 14.0
+    """Page units: a load is narrower than the wheel by so much on either side, or two would seem to touch."""
     drop: Span = (110.0, 150.0)
     masses: tuple[str, ...] = ("1", "1.5", "2", "3", "4", "5")
     rough: tuple[str, ...] = ("0.1", "0.15", "0.2")
@@ -59,7 +61,7 @@ def hanging(rng: np.random.Generator) -> Machine:
     sides = (middle - xy(wheel, 0), middle + xy(wheel, 0))
     lows = [side + xy(0, rng.uniform(*RANGES.drop)) for side in sides]
     names = ("left load", "right load")
-    halves = [min(float(rng.uniform(*RANGES.half)), wheel - 8) for _ in names]
+    halves = [min(float(rng.uniform(*RANGES.half)), wheel - RANGES.clear) for _ in names]
     loads = [_load(name, low, half) for name, low, half in zip(names, lows, halves, strict=True)]
     texts = [str(text) for text in rng.choice(RANGES.masses, size=2, replace=False)]
     g, given = maybe_gravity(rng)
@@ -97,7 +99,7 @@ def on_a_table(rng: np.random.Generator, rough: tuple[str, ...] = ()) -> Machine
     low = side + xy(0, rng.uniform(105, 125))
     near = xy(right - rng.uniform(150, 180), wire_height)
     box = rectangle(near - xy(2.4 * half, half), near + xy(0, half))
-    load, spot = _load("load", low, min(half, wheel - 8))
+    load, spot = _load("load", low, min(half, wheel - RANGES.clear))
     texts = [str(text) for text in rng.choice(RANGES.masses, size=2, replace=False)]
     g, given = maybe_gravity(rng)
     body = point(box.mean(axis=0))

@@ -32,8 +32,8 @@ class CircleRanges:
     """m, from the hill's middle to the ball's."""
     speeds: tuple[str, ...] = ("1", "1.5", "2", "2.5")
     masses: tuple[str, ...] = ("0.5", "1.5", "2", "3")
-    seconds: float = 0.8
-    """A given tension keeps a ball that a pen drew a little aside on its circle for so long."""
+    watched: float = 1.5
+    """rad: a given tension keeps a ball that a pen drew a little aside on its circle for so long."""
 
 
 RANGES = CircleRanges()
@@ -90,7 +90,9 @@ def _round(rng: np.random.Generator, way: np.ndarray, spins: tuple[str, ...], le
         Component(Circle(ball, radius), label="ball"),
     )
     wire = ("wire", point(0.5 * (pin + low)))
-    return Round(Situation(parts, given, RANGES.seconds), mass, distance, spin, g, ("ball", ball), wire)
+    return Round(
+        Situation(parts, given, RANGES.watched / spin), mass, distance, spin, g, ("ball", ball), wire
+    )
 
 
 def tension(rng: np.random.Generator) -> Exercise:

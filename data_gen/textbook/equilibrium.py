@@ -42,8 +42,7 @@ class HeldRanges:
     masses: tuple[str, ...] = ("0.5", "1.5", "2", "3", "4")
     pulls: tuple[str, ...] = ("4", "5", "6", "8")
     hanging: float = 0.5
-    """s: a given tension holds a ball on a wire that a pen drew aslant for so long; no angle is said that
-    could put it right."""
+    """s: as long as a given tension holds a ball that a pen drew a little aside."""
 
 
 RANGES = HeldRanges()
@@ -154,7 +153,7 @@ def one_wire(rng: np.random.Generator) -> Exercise:
     centre = low + xy(0, radius)
     text, mass = pick(rng, RANGES.masses)
     g, given = maybe_gravity(rng)
-    given += (remark(f"m = {text}", "ball", point(centre)),)
+    given += (_steep("theta", "0", "wire", high, low), remark(f"m = {text}", "ball", point(centre)))
     parts = (anchor, _wire("wire", high, low, "ball"), Component(Circle(point(centre), radius), label="ball"))
     formula = rng.random() < 0.5
     return ask(
@@ -186,6 +185,8 @@ def two_balls(rng: np.random.Generator) -> Exercise:
     (upper_text, upper_mass), (lower_text, lower_mass) = pick(rng, RANGES.masses), pick(rng, RANGES.masses)
     g, given = maybe_gravity(rng)
     given += (
+        _steep("theta", "0", "upper wire", high, low),
+        _steep("theta", "0", "lower wire", second, third),
         remark(f"m = {upper_text}", "upper ball", point(upper)),
         remark(f"m = {lower_text}", "lower ball", point(lower)),
     )

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from math import isfinite
+from math import isfinite, pi
 
 import sympy
 
@@ -177,12 +177,12 @@ class Exam:
 
     @cached_property
     def angles(self) -> tuple[float, ...]:
-        """All angles that the page names, rad."""
+        """All acute angles that the page names, rad."""
         found: list[float] = []
         for said in self.meanings.said:
             if said.name.partition("_")[0] in ANGLES:
                 value = constant_of(said, lookup(self.sketch, self.meanings, said.component, {}, self.g))
-                found += [] if value is None else [value]
+                found += [] if value is None or not 0 < value < pi / 2 else [value]
         return tuple(dict.fromkeys(found))
 
     @cached_property

@@ -117,17 +117,16 @@ def _parts(tree: Node, kind: type) -> list[Node]:
 
 
 def of_number(true: float, angles: tuple[float, ...], g: float) -> Iterator[tuple[Misconception, float]]:
-    """What each misconception that is a mere factor makes of the true value. angles: rad, of the page."""
+    """What each misconception that is a mere factor makes of the true value. angles: acute ones of the page, rad."""
     for angle in angles:
-        if 0 < angle < pi / 2:
-            yield "sine for cosine", true * tan(angle)
-            yield "sine for cosine", true / tan(angle)
-            for function in (sin, cos, tan):
-                read = function(degrees(angle))
-                for factor in (read / function(angle), function(angle) / read):
-                    yield "degrees for radians", true * factor
-                    yield "degrees for radians", true * abs(factor)
-                    yield "degrees for radians", true * factor**2
+        yield "sine for cosine", true * tan(angle)
+        yield "sine for cosine", true / tan(angle)
+        for function in (sin, cos, tan):
+            read = function(degrees(angle))
+            for factor in (read / function(angle), function(angle) / read):
+                yield "degrees for radians", true * factor
+                yield "degrees for radians", true * abs(factor)
+                yield "degrees for radians", true * factor**2
     for factor in (1 / g, g, sqrt(g), 1 / sqrt(g)):
         yield "forgot g", true * factor
     for factor in (2.0, 0.5):
