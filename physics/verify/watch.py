@@ -21,7 +21,7 @@ from sketch.ink import FloatArray
 class Watching:
     """How long and how closely a scene is watched."""
 
-    horizons: tuple[float, ...] = (1.0, 2.0, 5.0, 10.0, 20.0)
+    horizons: tuple[float, ...] = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
     """s: until a moment is found; what takes longer on a page of six metres does not happen."""
     extremes: float = 10.0
     """s: for the greatest and the smallest value."""
