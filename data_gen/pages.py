@@ -7,7 +7,7 @@ depends on (seed, i) alone.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from typing import Literal, assert_never
@@ -73,11 +73,21 @@ def page(name: str, seed: int, index: int, answer: str = "right") -> Page:
 
     Raises ValueError on a name or an answer that is not known, or a negative seed or index.
     """
+    return drawn(name, seed, index, answer, lambda rng: problem(name, answer, rng))
+
+
+def drawn(
+    name: str, seed: int, index: int, answer: str, meant_by: Callable[[np.random.Generator], Problem]
+) -> Page:
+    """A diagram of that name drawn by a random writer. meant_by: what is drawn, from the page's own generator.
+
+    Raises ValueError on a negative seed or index.
+    """
     if seed < 0 or index < 0:
         raise ValueError(f"seed {seed} and index {index}: both must be zero or more")
     rng = np.random.default_rng([seed, index])
     writer = sample_writer(rng)
-    meant = problem(name, answer, rng)
+    meant = meant_by(rng)
     return Page(name, answer, seed, index, _inked(meant, writer, rng), meant.seconds, meant.expected, writer)
 
 
@@ -147,7 +157,7 @@ def _inked(meant: Problem, writer: Writer, rng: np.random.Generator) -> Sketch:
         for number, part in numbered
         if isinstance(part.shape, Circle | Polygon)
     ]
-    solids = _drawn(solids, rng)
+    solids = _with_ink(solids, rng)
     # A link is drawn to where the solids have come to be on paper.
     on_paper = {
         part.label: drawing.Drawn(part.shape, solid.strokes)
@@ -168,7 +178,7 @@ def _inked(meant: Problem, writer: Writer, rng: np.random.Generator) -> Sketch:
         _Thing("line", number, [path + centre for path in line], letters)
         for number, (line, centre) in enumerate(zip(lines, places, strict=True))
     ]
-    rest = _drawn([*links, *taps, *mathematics], rng)
+    rest = _with_ink([*links, *taps, *mathematics], rng)
     return _owned(meaning(meant, places), _in_drawing_order([*solids, *rest], meant, rng), rng)
 
 
@@ -177,7 +187,7 @@ def _size(line: Sequence[FloatArray]) -> layout.Size:
     return (float(high[0] - low[0]), float(high[1] - low[1]))
 
 
-def _drawn(things: Sequence[_Thing], rng: np.random.Generator) -> list[_Thing]:
+def _with_ink(things: Sequence[_Thing], rng: np.random.Generator) -> list[_Thing]:
     """The things with their ink, each stroke's times beginning at 0."""
     paths = [path for thing in things for path in thing.paths]
     writers = [thing.writer for thing in things for _ in thing.paths]

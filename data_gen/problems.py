@@ -7,7 +7,8 @@ What each diagram must do when it is set in motion follows from how it was made,
 beside it as `Expected`.
 
 Shapes that are meant to touch touch exactly, links end exactly on boundaries, angles are exactly
-those in the mathematics. What a pen makes of that is another file's business.
+those in the mathematics. What a pen makes of that is another file's business. Textbook problems, whose
+answers are numbers to be judged, are in `data_gen.textbook.roster`.
 """
 
 from __future__ import annotations
@@ -62,10 +63,10 @@ def problem(name: str, answer: str, rng: np.random.Generator) -> Problem:
         raise ValueError(f"no problem is called {name!r}; there are {', '.join(PROBLEMS)}")
     if answer not in ANSWERS[name]:
         raise ValueError(f"{name} has no answer {answer!r}; it has {', '.join(ANSWERS[name])}")
-    return _in_reading_order(_DIAGRAMS[name](answer, rng))
+    return in_reading_order(_DIAGRAMS[name](answer, rng))
 
 
-def _in_reading_order(drawn: Problem) -> Problem:
+def in_reading_order(drawn: Problem) -> Problem:
     """The same diagram with labels A, B … given out row by row from the top, each row from the left."""
 
     def place(component: Component) -> tuple[int, float]:

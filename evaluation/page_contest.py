@@ -81,8 +81,13 @@ def true_reading(page: Page) -> Reading:
 
 def read_page(page: Page, name: str) -> Reading:
     """What happens on the page as the recognizer of that name reads it."""
+    return _reading(name, claimed(page, name), page.seconds)
+
+
+def claimed(page: Page, name: str) -> Sketch:
+    """The page as the recognizer of that name reads it; "oracle" is told what each stroke is."""
     rival: Recognizer = Oracle(page.truth) if name == ORACLE else _here(name)
-    return _reading(name, interpret(page.truth.ink, rival, notes_of(page.truth)), page.seconds)
+    return interpret(page.truth.ink, rival, notes_of(page.truth))
 
 
 def score_page(page: Page, truth: Reading, claim: Reading) -> PageScore:

@@ -13,13 +13,17 @@ from collections.abc import Sequence
 
 import typer
 
-from inklined.commands import compare, generate, reading, train
+from inklined.commands import compare, generate, observe, problems, reading, train
 
 HELP = """Ink that knows physics: reads pages of pen strokes, sets them in motion, and compares
 recognizers by what comes out. Without a command: inklined compare."""
 
-REPEATED = ("--ink", "--recognizer")
-"""Options that may be given several values at once: --recognizer paper learned."""
+REPEATED: dict[str, tuple[str, ...]] = {
+    "compare": ("--ink", "--recognizer"),
+    "problems": ("--family", "--recognizer"),
+    "observe": ("--quantity",),
+}
+"""For each command the options that may be given several values at once: --recognizer paper learned."""
 INTERRUPTED = 130
 """What a shell reports for a process that SIGINT ended."""
 
@@ -33,7 +37,9 @@ app = typer.Typer(
 )
 compare.register(app)
 reading.register(app)
+observe.register(app)
 generate.register(app)
+problems.register(app)
 train.register(app)
 
 
@@ -63,14 +69,15 @@ def _complain(line: str) -> None:
 
 
 def spread(arguments: Sequence[str]) -> list[str]:
-    """`--ink a b` as `--ink a --ink b`, for the options in `REPEATED` of `compare`."""
-    if not arguments or arguments[0] != "compare":
+    """`--ink a b` as `--ink a --ink b`, for the options in `REPEATED`."""
+    if not arguments or arguments[0] not in REPEATED:
         return list(arguments)
+    many = REPEATED[arguments[0]]
     spelled: list[str] = []
     repeated: str | None = None
     for argument in arguments:
         if argument.startswith("-"):
-            repeated = argument if argument in REPEATED else None
+            repeated = argument if argument in many else None
         elif repeated and spelled[-1] != repeated:
             spelled.append(repeated)
         spelled.append(argument)
@@ -80,6 +87,7 @@ def spread(arguments: Sequence[str]) -> list[str]:
 def _verdict(error: BaseException) -> tuple[str, int]:
     """One line for a person, and the exit code."""
     from inklined.output import OutputError
+    from physics.observables import ObservableError
     from physics.scene import SceneError
     from sketch.files.errors import FileError
     from sketch.formula.parse import FormulaError
@@ -99,6 +107,7 @@ def _verdict(error: BaseException) -> tuple[str, int]:
             | ShapeError()
             | FormulaError()
             | SceneError()
+            | ObservableError()
             | OutputError()
         ):
             return _one_line(str(error)), 1

@@ -10,12 +10,16 @@ import sympy
 
 from physics.formula.meaning import DENSITY, GRAVITY, PER_METRE, SOLIDS, Meanings, Said
 from physics.formula.program import STATE, Lookup, Node, ProgramError, Reading, compile_tree
+from physics.formula.quantities import Role
 from physics.formula.said import names_in
 from physics.formula.statements import labelled
 from physics.formula.vectors import split
 from sketch.geometry import solid_area
 from sketch.page import Component, Sketch
 from sketch.shapes import Circle, Polygon
+
+MASS_ROLES: tuple[Role, ...] = ("mass", "weight", "density")
+"""What tells the mass of a solid, the first that is said."""
 
 
 def mass_of(sketch: Sketch, meanings: Meanings, component: Component) -> tuple[float, str | None]:
@@ -28,7 +32,7 @@ def mass_of(sketch: Sketch, meanings: Meanings, component: Component) -> tuple[f
     area = solid_area(component.shape) / PER_METRE**2
     default = DENSITY * area
     find = lookup(sketch, meanings, component.label, {}, GRAVITY)
-    for role in ("mass", "weight", "density"):
+    for role in MASS_ROLES:
         said = meanings.of(component.label, role, component.kind)
         if said is None:
             continue

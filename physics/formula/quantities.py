@@ -40,10 +40,11 @@ from sketch.shapes import ComponentKind
 
 Role = Literal[
     "a_x", "a_y", "acceleration", "angle", "angular_acceleration", "angular_velocity", "density", "distance",
-    "energy", "force", "frequency", "friction", "gravity", "height", "impulse", "inertia", "kinetic", "length",
+    "energy", "force", "force_peak", "frequency", "friction", "gravity", "heat", "height", "impulse", "inertia",
+    "kinetic", "length",
     "mass", "momentum", "p_x", "p_y", "period", "position", "potential", "power", "pull", "restitution",
-    "speed", "spin", "stiffness", "stretch", "tension", "time", "torque", "v_x", "v_y", "velocity", "weight",
-    "work", "x", "y",
+    "speed", "spin", "stiffness", "stretch", "tension", "tension_peak", "time", "torque", "v_x", "v_y", "velocity", "way_x", "way_y",
+    "weight", "work", "x", "y",
 ]  # fmt: skip
 
 Owner = ComponentKind | None
@@ -91,6 +92,8 @@ class Quantity:
         return self.what if self.size == NUMBER else f"{self.what} ({self.size})"
 
 
+PEAKS = tuple(f"{name}_{most}" for name in ("f", "F", "N", "R") for most in ("max", "min"))
+"""Names of what a force gets to at most or at least: nothing pushes with it all the time."""
 QUANTITIES: tuple[Quantity, ...] = (
     # What governs.
     Quantity("mass", ("m*", "M*"), SOLIDS, "scalar", True, MASS, "a mass", "how it responds to forces"),
@@ -105,11 +108,13 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity("v_y", ("v_y", "v_0y", "v_y0"), SOLIDS, "scalar", True, VELOCITY, "a velocity upwards", "how it starts"),
     Quantity("velocity", ("v", "v_0"), SOLIDS, "either", True, VELOCITY, "a velocity", "how it starts"),
     Quantity("spin", ("omega", "omega_0"), SOLIDS, "scalar", True, RATE, "an angular velocity", "how it starts to turn"),
+    Quantity("force_peak", PEAKS, SOLIDS, "scalar", False, FORCE, "the greatest or smallest that a force gets"),
     Quantity("force", ("f*", "F*", "N*", "R*"), SOLIDS, "either", False, FORCE, "a force", "what pushes it"),
     Quantity("angle", ("alpha*",), ("polygon", *LINKS), "scalar", True, NUMBER, "an angle", "how it is inclined"),
     Quantity("angle", ("theta*", "beta*", "gamma*", "phi*"), (*SOLIDS, *LINKS), "scalar", True, NUMBER, "an angle", "how it is inclined"),
     Quantity("stiffness", ("k*",), ("spring",), "scalar", True, STIFFNESS, "a spring's stiffness", "how hard it pulls"),
     Quantity("length", ("L*", "l*"), LINKS, "scalar", True, LENGTH, "a link's length at rest", "how long it is at rest"),
+    Quantity("tension_peak", ("T_max", "T_min"), ("wire",), "scalar", False, FORCE, "the greatest or smallest that a tension gets"),
     Quantity("tension", ("T*",), ("wire",), "scalar", False, FORCE, "a wire's tension", "how hard it pulls"),
     Quantity("gravity", ("g",), (None,), "scalar", True, ACCELERATION, "the acceleration of free fall", "how all things fall"),
     # What is answered.
@@ -135,6 +140,9 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity("torque", ("tau*",), SOLIDS, "scalar", False, ENERGY, "a torque"),
     Quantity("height", ("h*", "H*"), (*SOLIDS, None), "scalar", False, LENGTH, "a height"),
     Quantity("distance", ("d*", "D*", "R*"), (*SOLIDS, *LINKS, None), "scalar", False, LENGTH, "a distance"),
+    Quantity("way_x", ("x*",), SOLIDS, "scalar", False, LENGTH, "a way to the right from where it was drawn"),
+    Quantity("way_y", ("y*",), SOLIDS, "scalar", False, LENGTH, "a way upwards from where it was drawn"),
+    Quantity("heat", ("Q*",), (*SOLIDS, None), "scalar", False, ENERGY, "a heat"),
     Quantity("stretch", ("x", "s"), ("spring",), "scalar", False, LENGTH, "a spring's stretch"),
     Quantity("pull", ("F*", "f*"), ("spring",), "scalar", False, FORCE, "a spring's pull"),
 )  # fmt: skip

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from physics.formula.meaning import PER_METRE, Meanings, Role, Said
-from physics.formula.names import constant_of, lookup, mass_of, solid_of
+from physics.formula.names import MASS_ROLES, constant_of, lookup, mass_of, solid_of
 from physics.formula.program import STATE, Lookup, Node, Program, ProgramError, compile_tree
 from physics.scene import Vector
 from sketch.page import Component, Sketch
@@ -35,7 +35,8 @@ class Spoken:
 
     def mass(self, sketch: Sketch, part: Component) -> tuple[float, str | None]:
         """(kg, a notice where what the page says of it cannot be), of a solid."""
-        return mass_of(sketch, self.meanings if self.of(part, "mass") else NOTHING, part)
+        told = any(self.of(part, role) for role in MASS_ROLES)
+        return mass_of(sketch, self.meanings if told else NOTHING, part)
 
 
 NOTHING = Meanings((), ())

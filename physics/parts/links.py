@@ -9,6 +9,7 @@ from typing import assert_never
 from physics.formula.meaning import PER_METRE
 from physics.infer import RULE as INFERENCE
 from physics.parts.given import Page, to_metres
+from physics.parts.pulleys import Run, runs_over
 from physics.scene import Anchor, Body, SpringLink, WireLink
 from sketch.page import Component
 from sketch.shapes import Arrow, Circle, Point, Polygon, Spring, Wire
@@ -26,9 +27,14 @@ RULE = LinkRule()
 
 
 def links_of(page: Page, bodies: dict[str, Body]) -> tuple[tuple[SpringLink, ...], tuple[WireLink, ...]]:
+    """All links of the page; two wires that run over a pulley are one, under the first one's label."""
     springs: list[SpringLink] = []
     wires: list[WireLink] = []
+    runs = runs_over(page.sketch)
+    over = {part.label for run in runs for part in run.parts}
     for part in page.sketch.components:
+        if part.label in over:
+            continue
         match part.shape:
             case Spring() | Wire():
                 link = _link(page, part, part.shape, bodies)
@@ -40,7 +46,24 @@ def links_of(page: Page, bodies: dict[str, Body]) -> tuple[tuple[SpringLink, ...
                 pass
             case _:
                 assert_never(part.shape)
-    return tuple(springs), tuple(wires)
+    return tuple(springs), (*wires, *(_over(page, run, bodies) for run in runs))
+
+
+def _over(page: Page, run: Run, bodies: dict[str, Body]) -> WireLink:
+    """A wire over a pulley. A tension that is given of either piece is the whole wire's."""
+    start, end = (
+        Anchor(None, place)
+        if label is None
+        else Anchor(label, (place[0] - bodies[label].position[0], place[1] - bodies[label].position[1]))
+        for label, place in zip(run.ends, run.places, strict=True)
+    )
+    tension = None
+    for part in run.parts:
+        said = page.meanings.of(part.label, "tension", "wire")
+        if said is not None:
+            tension = page.program(said, part.label, said.tree)
+    label = run.parts[0].label
+    return WireLink(label, start, end, run.rest, tension, INFERENCE.yields * run.rest, over=run.over)
 
 
 def _link(

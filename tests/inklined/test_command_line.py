@@ -316,3 +316,53 @@ def test_whatever_fails_within_is_one_line_and_a_code(error, code, words, tmp_pa
     finished = inklined("analyze", "dot.jsonl", "--recognizer", f"{module}:Failing", cwd=tmp_path)
     line = refusal(finished, code)
     assert words in line
+
+
+def test_problems_prints_its_table_and_writes_its_figures(tmp_path: Path) -> None:
+    """Of two families, since all of them take a minute: tests/evaluation/test_textbook.py judges them all."""
+    done = inklined(
+        "problems",
+        "--draws",
+        1,
+        "--family",
+        "incline",
+        "energy",
+        "--jobs",
+        1,
+        "--json",
+        "out.json",
+        cwd=tmp_path,
+    )
+    assert done.returncode == 0, done.stderr
+    figures = json.loads((tmp_path / "out.json").read_text())
+    assert set(figures) >= {
+        "problems",
+        "right_judged_right",
+        "wrong_judged_wrong",
+        "misconception_named",
+        "families",
+    }
+    assert list(figures["families"]) == ["incline", "energy"]
+    assert figures["problems"] == sum(family["problems"] for family in figures["families"].values())
+    assert figures["right_judged_right"] == figures["wrong_judged_wrong"] == 1.0
+    assert "misconception" in done.stdout
+    nothing = inklined("problems", "--draws", 0, cwd=tmp_path)
+    assert "leaves nothing to judge" in refusal(nothing, 2)
+    unknown = inklined("problems", "--family", "optics", cwd=tmp_path)
+    assert "there is no such name; known are projectile, incline" in refusal(unknown, 2)
+
+
+def test_observe_writes_a_table_that_can_be_read_back(pages: Path, tmp_path: Path) -> None:
+    page = next(pages.glob("*pendulum*.inklined"))
+    done = inklined(
+        "observe", page, "--body", "C", "--quantity", "velocity", "speed", "--csv", "c.csv", "--svg", "c.svg",
+        "--parquet", "c.parquet", cwd=tmp_path,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    head, *rows = (tmp_path / "c.csv").read_text().splitlines()
+    assert head.startswith('"t (s)","velocity x of C (m/s)"')
+    assert len(rows) == 121
+    assert (tmp_path / "c.svg").read_text().startswith("<?xml")
+    assert (tmp_path / "c.parquet").read_bytes()[:4] == b"PAR1"
+    wrong = inklined("observe", page, "--body", "Z", cwd=tmp_path)
+    assert "'Z' is nothing that can move here; C can" in refusal(wrong, 1)
