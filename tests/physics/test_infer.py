@@ -127,11 +127,11 @@ def on_incline(kind: str, remarks: tuple[tuple[str, str | None, None], ...]) -> 
 @pytest.mark.parametrize(
     "remarks",
     [
-        (("f_k = 0.2 N", "B", None),),
+        (("f_k = 0.2*N", "B", None),),
         (("mu = 0.2", "B", None), ("f = mu N", "B", None)),
         (("f_1 = |W| cos(theta)", "B", None), ("f_2 = 0.2 |W| cos(theta)", "B", None)),
         (("f_2 = 0.2 |W| cos(theta)", "B", None), ("f_1 = |W| cos(theta)", "B", None)),
-        (("N = |W| cos(theta)", "B", None), ("f_1 = N", "B", None), ("f_k = 0.2 N", "B", None)),
+        (("N = |W| cos(theta)", "B", None), ("f_1 = N", "B", None), ("f_k = 0.2*N", "B", None)),
         (("mu_k = 0.2", "B", None), ("N = m g cos(theta)", "B", None), ("F_k = mu_k N", "B", None)),
     ],
 )
@@ -145,7 +145,7 @@ def test_friction_that_is_given_acts_along_the_incline_against_the_motion(kind, 
 
 @pytest.mark.parametrize("kind", ["ball", "block"])
 def test_friction_slows_what_goes_up_and_what_comes_down(kind: str) -> None:
-    up = (("v_x = 2 cos(pi/6)", "B", None), ("v_y = 2 sin(pi/6)", "B", None), ("f_k = 0.2 N", "B", None))
+    up = (("v_x = 2 cos(pi/6)", "B", None), ("v_y = 2 sin(pi/6)", "B", None), ("f_k = 0.2*N", "B", None))
     motion = move(on_incline(kind, up), 0.8)
     rising, sinking = (G * (sin(ANGLE) + share * cos(ANGLE)) for share in (0.2, -0.2))
     along = (motion.trajectory.path("B") - motion.trajectory.path("B")[0]) @ (cos(ANGLE), sin(ANGLE))
@@ -157,7 +157,7 @@ def test_friction_slows_what_goes_up_and_what_comes_down(kind: str) -> None:
 
 
 def test_friction_that_can_hold_a_block_holds_it_and_nearly_holds_a_ball() -> None:
-    much = (("f_s = 0.8 N", "B", None),)
+    much = (("f_s = 0.8*N", "B", None),)
     held = move(on_incline("block", much), 3.0)
     assert np.abs(held.trajectory.poses - held.trajectory.poses[0]).max() < 1e-9
     ball = move(on_incline("ball", much), 3.0)
@@ -229,7 +229,7 @@ def test_friction_said_of_a_ball_replaces_the_engines_own() -> None:
 
 
 def test_friction_ends_where_the_incline_ends() -> None:
-    motion = move(on_incline("ball", (("f_k = 0.2 N", "B", None),)), 2.0)
+    motion = move(on_incline("ball", (("f_k = 0.2*N", "B", None),)), 2.0)
     force = motion.trajectory.force("f_k", "B").values
     path = motion.trajectory.path("B")
     gone = path[:, 0] < 1.0 - 0.25
