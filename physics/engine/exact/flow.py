@@ -304,13 +304,16 @@ def _earliest(
 ) -> tuple[float, int]:
     """The first of all candidates to meet, given that one does at share `first` and that none has at `low`: another
     may be in the midst of a dip by then."""
-    looking = True
-    while looking:
-        looking = False
+    for _ in range(n):
+        earlier = False
         for c in range(n):
             p = candidates(m)[c]
             if p != pair and _look(w, m, m.watched + p, t, h, first) < -1.0:
-                first, pair, looking = _falls(w, m, m.watched + p, t, h, 0.0, low, first), p, True
+                when = _falls(w, m, m.watched + p, t, h, 0.0, low, first)
+                if when < first:
+                    first, pair, earlier = when, p, True
+        if not earlier:
+            break
     return first, pair
 
 
