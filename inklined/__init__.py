@@ -4,11 +4,12 @@
 
     page = inklined.analyze("incline.inklined", recognizer="geometric")  # a sketch.page.Sketch
     motion = inklined.move(page, seconds=2.0)                            # a physics.pipeline.Motion
+    verdicts = inklined.judge(page)                                      # one for every answer on it
     results = inklined.compare(["strokes.jsonl.gz"])                     # scores of every recognizer
 
 Importing this costs nothing; what a function needs is imported when it is called.
 """
 
-from inklined.api import analyze, compare, move
+from inklined.api import analyze, compare, judge, move
 
-__all__ = ["analyze", "compare", "move"]
+__all__ = ["analyze", "compare", "judge", "move"]

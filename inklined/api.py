@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from evaluation.stroke_contest import StrokeResult
     from physics.pipeline import Motion
+    from physics.verify.verdict import Verdict
     from sketch.ink import Ink
     from sketch.page import Sketch
 
@@ -43,6 +44,15 @@ def move(sketch: Sketch, seconds: float = 2.0, rate: float = 60.0) -> Motion:
     from physics.pipeline import move as moved
 
     return moved(sketch, seconds, rate)
+
+
+def judge(sketch: Sketch) -> tuple[Verdict, ...]:
+    """Corrects a page and judges every answer on it by the engine: right, wrong or not determined, by how much, its
+    dimensions, and the misconception that explains it. `physics.verify.asked` says what counts as an answer."""
+    from physics.rectify import rectify
+    from physics.verify.verdict import verify
+
+    return verify(rectify(sketch).sketch)
 
 
 def compare(

@@ -91,7 +91,7 @@ def simulate(
     svg: Annotated[Path | None, typer.Option(help="Draw some moments side by side.")] = None,
     gif: Annotated[Path | None, typer.Option(help="Write the motion as an animation, in real time.")] = None,
 ) -> None:
-    """Correct a page, set it in motion and say what happens."""
+    """Correct a page, set it in motion, say what happens, and judge the answers on it."""
     from inklined.output import check_writable, write_bytes, write_text
 
     rivals([recognizer] if recognizer else ())
@@ -102,7 +102,7 @@ def simulate(
 
     from evaluation.pictures import animation, strip
     from evaluation.words import happened
-    from inklined.api import move
+    from inklined.api import judge, move
     from inklined.terminal import out, progress
     from physics.outcome import outcome
     from sketch.files.pages import open_page
@@ -120,8 +120,12 @@ def simulate(
             write_text(svg, strip(motion, seconds), [file])
         if gif:
             write_bytes(gif, animation(motion, seconds, tell), [file])
+        tell("Judging", 0, 1)
+        verdicts = judge(page)
     for line in happened(motion, outcome(motion)):
         out.print(line, markup=False)
+    for verdict in verdicts:
+        out.print(f"{verdict.component}: {verdict.message}", markup=False)
     for correction in motion.corrections:
         out.print(
             f"Corrected: {correction.why} ({correction.rule})",

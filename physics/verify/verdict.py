@@ -135,13 +135,23 @@ def _judged(exam: Exam, meanings: Meanings, answer: _Answer) -> Verdict:
         message += "" if answer.finding is None else f" But {answer.finding.message}"
         return _verdict(answer, "right", given, true.value, true.bound, None, message)
     cause = None if near else _explained(exam, meanings, answer, given, true.value)
-    parts = [f"{answer.said.text} is wrong: it is {true.value:.4g} {answer.question.asked.unit}"]
+    parts = [
+        f"{answer.said.text} is wrong: it is {true.value:.4g} {answer.question.asked.unit}{_off(given, true.value)}"
+    ]
     if cause is not None:
         parts.append(f"; it seems that {WORDS[cause]}")
     message = "".join(parts) + "."
     if answer.finding is not None:
         message += f" {answer.finding.message}"
     return _verdict(answer, "wrong", given, true.value, true.bound, cause, message)
+
+
+def _off(given: float, true: float) -> str:
+    """How far off an answer is, in words; nothing where that is no matter of a share."""
+    if true == 0.0 or given / true <= 0.0 or given / true > 10.0:
+        return ""
+    share = abs(given) / abs(true) - 1.0
+    return f", so this is {100 * abs(share):.2g} % too {'great' if share > 0 else 'small'}"
 
 
 def _verdict(

@@ -180,6 +180,13 @@ def test_simulate_says_what_happens_and_draws_it(pages, tmp_path):
     assert (tmp_path / "s.gif").read_bytes().startswith(b"GIF89a")
 
 
+def test_simulate_judges_the_answers_on_the_page(pages, tmp_path):
+    page = next(iter(pages.glob("*incline*")))
+    ran = inklined("simulate", page, cwd=tmp_path)
+    assert ran.returncode == 0, ran.stderr
+    assert " is right: " in " ".join(ran.stdout.split())
+
+
 def test_a_missing_file_is_named(tmp_path):
     for command in (["analyze"], ["simulate"], ["compare", "--ink"]):
         assert "nowhere.jsonl" in refusal(inklined(*command, "nowhere.jsonl", cwd=tmp_path), 1)

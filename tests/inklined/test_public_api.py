@@ -29,6 +29,14 @@ def test_what_was_read_can_be_moved():
     assert len(motion.trajectory.bodies) == 2
 
 
+@pytest.mark.parametrize(("answer", "status"), [("right", "right"), ("low", "wrong"), ("high", "wrong")])
+def test_the_answer_on_a_page_is_judged(answer, status):
+    drawn = page("incline-and-ball", 8, 3, answer)
+    (verdict,) = inklined.judge(drawn.truth)
+    assert verdict.status == status
+    assert verdict.error == pytest.approx({"right": 0.0, "low": 0.1, "high": 0.1}[answer], abs=1e-9)
+
+
 def test_compare_scores_those_who_are_named():
     (paper,) = inklined.compare(recognizers=["paper"], strokes=45, seed=1)
     assert paper.name == "paper"

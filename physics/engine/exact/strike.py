@@ -161,7 +161,7 @@ def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
                     give += row.T[a] ** 2 * inverse[i, a] + row.T[3 + a] ** 2 * inverse[j, a]
                     rate += row.T[a] * vel[i, a] + row.T[3 + a] * vel[j, a]
                 if give > 0.0:
-                    bound = row.mu * row.force if row.bound < JAMMED else 1e300
+                    bound = row.mu * max(row.force, 0.0) if row.bound < JAMMED else 1e300
                     total = min(max(row.rub - rate / give, -bound), bound)
                     change = total - row.rub
                     row.rub = total
