@@ -354,7 +354,10 @@ class ExactRun:
             raise TooMuch
 
     def _stop(self) -> None:
-        """A formula has no value: names it."""
+        """A formula has no value: names it. Raises TooMuch where there is no formula: then it is the contacts that
+        have no answer."""
+        if not len(self.world.spans):
+            raise TooMuch
         self.stopped = True
         self.tell.stopped(self.time, self.world, self.pos, self.vel, self.step)
 
