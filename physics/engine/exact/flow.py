@@ -114,8 +114,7 @@ def flow(
         if done[0] >= most:
             return FULL
         unpack(state(m), m.movable, poses(m), velocities(m))
-        whirling = whirl(w, m)
-        h = min(now[H], 0.5 * SWEEP / whirling) if whirling > 0.0 else now[H]
+        h = min(now[H], 0.5 * SWEEP / max(whirl(w, m), 1e-300))
         error = step(w, m, t, h, accuracy)
         if error > 1.0 or error != error:
             now[H] = h * (max(0.2, 0.9 * error**-0.125) if error < 1e100 else 0.25)

@@ -171,7 +171,7 @@ def whirl(w: Any, m: Any) -> float:
             body, x, y = (link.i, ax, ay) if end == 0 else (link.j, bx, by)
             dx, dy = pos[body, 0] + x - pos[link.over, 0], pos[body, 1] + y - pos[link.over, 1]
             speed = hypot(vel[body, 0] - vel[body, 2] * y, vel[body, 1] + vel[body, 2] * x)
-            turning += speed / max(hypot(dx, dy), 0.5 * radii(w)[link.over])
+            turning += speed / max(hypot(dx, dy), 0.5 * float(radii(w)[link.over]))
         fastest = max(fastest, turning)
     return fastest
 
