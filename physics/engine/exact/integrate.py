@@ -44,7 +44,6 @@ from physics.engine.tables import WORLD, inverses
 from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
-
 TURNS = 6
 """Times that a state is projected before the motion begins, at most."""
 NEAR = 1e-10
