@@ -111,7 +111,8 @@ class SpringLink:
 @dataclass(frozen=True, slots=True)
 class Pulley:
     """The fixed disc that a wire runs over without friction, and the sense in which it goes round it
-    on its way from its start to its end."""
+    on its way from its start to its end, as drawn. The disc is solid, for the wire as for its loads: the wire
+    may wind farther round it, come off it, and lie against its other side, but never passes through it."""
 
     body: str
     clockwise: bool

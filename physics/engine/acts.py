@@ -32,16 +32,18 @@ class Act:
     unique: bool = True
 
 
-def applied(world: World, names: Names, times: FloatArray, pos: FloatArray, vel: FloatArray) -> list[Act]:
+def applied(
+    world: World, names: Names, times: FloatArray, pos: FloatArray, vel: FloatArray, wound: FloatArray
+) -> list[Act]:
     """Weight, springs, the student's forces, given normal forces and tensions.
 
-    times: (T,) s; pos, vel: (T, bodies + 1, 3). Wires that are broken and supports that are over give zero.
+    times: (T,) s; pos, vel: (T, bodies + 1, 3); wound: (T, links) of wires over pulleys, rad. Wires that are broken and supports that are over give zero.
     """
     frames, page = len(times), len(names.bodies)
     links, pushes, supports = len(world.links), len(world.pushes), len(world.supports)
     pulled, points = np.zeros((frames, links, 4)), np.zeros((frames, links, 4))
     pushed, given = np.zeros((frames, pushes, 2)), np.zeros((frames, supports, 2))
-    _frames(world.cells, times, pos, vel, pulled, points, pushed, given)
+    _frames(world.cells, times, pos, vel, wound, pulled, points, pushed, given)
     acts: list[Act] = []
     if np.any(world.gravity):
         for body in range(names.movable):
@@ -75,6 +77,7 @@ def _frames(
     times: FloatArray,
     pos: FloatArray,
     vel: FloatArray,
+    wound: FloatArray,
     pulled: FloatArray,
     points: FloatArray,
     pushed: FloatArray,
@@ -85,6 +88,7 @@ def _frames(
         t, x, v = times[frame], pos[frame], vel[frame]
         for k in range(w.links):
             if pulls(w, k):
+                link_of(w, k).wound = wound[frame, k]
                 pull, _ = pull_of(w, k, t, x, v)
                 ax, ay, bx, by, ux, uy, wx, wy, _ = ends_of(w, k, x)
                 i, j = link_of(w, k).i, link_of(w, k).j

@@ -11,7 +11,7 @@ from math import hypot
 from typing import Any
 
 from physics.engine.cells import head
-from physics.engine.rows import turned, wrapped
+from physics.engine.rows import turned
 from physics.engine.tables import (
     WORLD,
     corners,
@@ -26,6 +26,7 @@ from physics.engine.tables import (
     support_of,
     value,
 )
+from physics.engine.wheel import bent, swept
 from physics.engine.world import SPRING, WIRE, World
 from physics.jit import kernel, part
 from sketch.ink import FloatArray
@@ -60,20 +61,44 @@ def ends_of(
     ax, ay = turned(pos[i, 2], link.ax, link.ay)
     bx, by = turned(pos[j, 2], link.bx, link.by)
     if link.over >= 0:
-        wheel = link.over
-        radius, cx, cy = float(radii(w)[wheel]), pos[wheel, 0], pos[wheel, 1]
-        first, ux, uy, touch, _ = wrapped(pos[i, 0] + ax, pos[i, 1] + ay, cx, cy, radius, link.sense)
-        second, wx, wy, leave, _ = wrapped(pos[j, 0] + bx, pos[j, 1] + by, cx, cy, radius, -link.sense)
-        arc = link.sense * (leave - touch)
-        arc -= 6.283185307179586 * (arc // 6.283185307179586)
-        if arc < 5.497787143782138:
-            return ax, ay, bx, by, -ux, -uy, -wx, -wy, first + second + radius * arc
+        cx, cy = pos[link.over, 0], pos[link.over, 1]
+        arc, first, ux, uy, second, wx, wy = bent(
+            pos[i, 0] + ax - cx,
+            pos[i, 1] + ay - cy,
+            pos[j, 0] + bx - cx,
+            pos[j, 1] + by - cy,
+            float(radii(w)[link.over]),
+            link.wound,
+        )
+        if arc > 0.0:
+            return ax, ay, bx, by, -ux, -uy, -wx, -wy, first + second + arc
     dx, dy = pos[j, 0] + bx - pos[i, 0] - ax, pos[j, 1] + by - pos[i, 1] - ay
     length = hypot(dx, dy)
     ux, uy = 0.0, 0.0
     if length > 0.0:
         ux, uy = dx / length, dy / length
     return ax, ay, bx, by, ux, uy, -ux, -uy, length
+
+
+@part
+def wound_now(w: Any, k: int, pos: FloatArray) -> float:
+    """How far wire k is wound about its pulley, rad, if it has turned by less than half a turn since `link.wound`."""
+    link = link_of(w, k)
+    i, j, wheel = link.i, link.j, link.over
+    ax, ay = turned(pos[i, 2], link.ax, link.ay)
+    bx, by = turned(pos[j, 2], link.bx, link.by)
+    cx, cy = pos[wheel, 0], pos[wheel, 1]
+    return swept(
+        pos[i, 0] + ax - cx, pos[i, 1] + ay - cy, pos[j, 0] + bx - cx, pos[j, 1] + by - cy, link.wound
+    )
+
+
+@part
+def wind(w: Any, pos: FloatArray) -> None:
+    """Brings what links tell of their turns about pulleys up to these poses."""
+    for k in range(w.links):
+        if link_of(w, k).over >= 0:
+            link_of(w, k).wound = wound_now(w, k, pos)
 
 
 @part

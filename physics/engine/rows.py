@@ -10,11 +10,12 @@ the terms of second order are derived in the comments.
 
 from __future__ import annotations
 
-from math import acos, cos, hypot, sin, sqrt
+from math import cos, hypot, sin
 from typing import Any
 
 import numpy as np
 
+from physics.engine.wheel import bent
 from physics.engine.world import Table
 from physics.jit import kernel, part
 from sketch.ink import FloatArray
@@ -23,15 +24,12 @@ FACE, POINT, CORD, PIN_X, PIN_Y, GIVEN = 0, 1, 2, 3, 4, 5
 """A point or disc of j on a face of i; of j on a point or disc of i; a wire; a pin's two rows; slip under a
 given normal force, of the disc or block j on what i gives."""
 
-UNWOUND = 1.75 * np.pi
-"""rad: a wire that would go farther round its wheel than this has left it, and is straight."""
-
 OFF, ON = 0, 1
 FREE, STICK, SLIDE = 0, 1, 2
 """No friction; held by it; slipping in the sense `sigma`."""
 
 _INDICES = ("kind", "i", "j", "source", "feature", "status", "grip", "shut", "unique")
-_PLACES = ("ax", "ay", "bx", "by", "nx0", "ny0", "ri", "rj", "length", "e", "mu", "sigma")
+_PLACES = ("ax", "ay", "bx", "by", "nx0", "ny0", "ri", "rj", "length", "e", "mu", "sigma", "wound")
 _FOUND = ("c", "ct", "gap", "rate", "slip", "nx", "ny", "px", "py", "along", "force", "rub", "bound", "press")
 ROW = np.dtype(
     [(name, np.int64) for name in _INDICES]
@@ -41,7 +39,8 @@ ROW = np.dtype(
 """source: the pair's, link's or support's number; feature: which corner and face; shut: the contact no longer
 bounces; a on i and b on j: points in their frames; n0: the face's normal in i's frame, length: of the
 face; (px, py): where it acts; along: the place on the face, m; force: N along J; rub: N along T; bound:
-of |rub| under a given normal force; press: the gap's acceleration if the row did not hold, m/s²."""
+of |rub| under a given normal force; press: the gap's acceleration if the row did not hold, m/s²;
+wound: of a wire over the wheel `feature` with radius ri (physics.engine.wheel), within half a turn, rad."""
 
 
 @part
@@ -158,39 +157,18 @@ def _refresh_cord(row: Any, pos: FloatArray, vel: FloatArray) -> None:
 
 
 @part
-def wrapped(
-    x: float, y: float, cx: float, cy: float, radius: float, sense: float
-) -> tuple[float, float, float, float, float]:
-    """(length of the straight part from (x, y) to where it touches the wheel, unit vector from there to
-    (x, y), angle of the point of touch about the wheel). sense: +1 where the wire goes on round the
-    wheel anti-clockwise from here."""
-    dx, dy = x - cx, y - cy
-    square = dx * dx + dy * dy
-    straight = sqrt(max(square - radius * radius, 0.0))
-    # From the wheel's centre the point of touch is acos(r / d) before or after the direction to (x, y).
-    towards = np.arctan2(dy, dx)
-    aside = acos(min(radius / sqrt(square), 1.0)) if square > 0.0 else 0.0
-    touch = towards + sense * aside
-    qx, qy = cos(touch), sin(touch)
-    # The wire leaves along the tangent, against the way round.
-    return straight, sense * qy, -sense * qx, touch, square
-
-
-@part
 def _refresh_over_pulley(row: Any, pos: FloatArray, vel: FloatArray) -> None:
     i, j, wheel = row.i, row.j, row.feature
-    radius = row.ri
     cx, cy = pos[wheel, 0], pos[wheel, 1]
     ax, ay = turned(pos[i, 2], row.ax, row.ay)
     bx, by = turned(pos[j, 2], row.bx, row.by)
-    straight_i, ux, uy, touch_i, _ = wrapped(pos[i, 0] + ax, pos[i, 1] + ay, cx, cy, radius, row.sigma)
-    straight_j, wx, wy, touch_j, _ = wrapped(pos[j, 0] + bx, pos[j, 1] + by, cx, cy, radius, -row.sigma)
-    arc = row.sigma * (touch_j - touch_i)
-    arc -= 2.0 * np.pi * np.floor(arc / (2.0 * np.pi))
-    if arc > UNWOUND:
+    arc, straight_i, ux, uy, straight_j, wx, wy = bent(
+        pos[i, 0] + ax - cx, pos[i, 1] + ay - cy, pos[j, 0] + bx - cx, pos[j, 1] + by - cy, row.ri, row.wound
+    )
+    if arc <= 0.0:
         _refresh_cord(row, pos, vel)
         return
-    row.gap = row.length - straight_i - straight_j - radius * arc
+    row.gap = row.length - straight_i - straight_j - arc
     row.nx, row.ny = ux, uy
     row.px, row.py = pos[i, 0] + ax, pos[i, 1] + ay
     row.J[0], row.J[1], row.J[2] = -ux, -uy, -(ax * uy - ay * ux)

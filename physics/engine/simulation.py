@@ -225,9 +225,11 @@ def _rewind(strand: Strand, time: float) -> None:
 
 
 def _carry(old: World, old_names: Names, new: World, names: Names) -> None:
-    """What has changed for good: broken wires, given normal forces that are over, courses that ended."""
+    """What has changed for good: broken wires, turns about pulleys, given normal forces that are over, courses that ended."""
     for k, label in enumerate(old_names.links):
-        new.links["broken"][names.links.index(label)] |= old.links["broken"][k]
+        at = names.links.index(label)
+        new.links["broken"][at] |= old.links["broken"][k]
+        new.links["wound"][at] = old.links["wound"][k]
     for k, support in enumerate(old.supports):
         key = (old_names.supports[k], old_names.bodies[support["i"]])
         at = next(q for q, s in enumerate(new.supports) if (names.supports[q], names.bodies[s["i"]]) == key)

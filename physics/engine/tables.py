@@ -16,10 +16,11 @@ from physics.jit import part
 from sketch.ink import FloatArray
 
 _INDICES = ("kind", "i", "j", "tension", "reader", "over", "broken")
-_SIZES = ("ax", "ay", "bx", "by", "rest", "stiffness", "damping", "tolerance", "limit", "sense")
+_SIZES = ("ax", "ay", "bx", "by", "rest", "stiffness", "damping", "tolerance", "limit", "wound")
 LINK = np.dtype([(name, np.int64) for name in _INDICES] + [(name, np.float64) for name in _SIZES])
 """kind; bodies i, j and the link's ends in their frames; tension: a program, −1: none; reader: whose state
-it reads; over: the pulley, −1: none; sense: +1 where the wire goes round it anti-clockwise."""
+it reads; over: the pulley, −1: none; wound: the angle that the wire sweeps about it, within half a turn, rad
+(physics.engine.wheel)."""
 
 PAIR = np.dtype(
     [(name, np.int64) for name in ("i", "j", "support")]

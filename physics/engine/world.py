@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.engine.tables import COURSE, LAYOUT, LINK, PAIR, PUSH, SUPPORT
+from physics.engine.wheel import drawn
 from physics.formula.kernel import Packed, pack
 from physics.formula.program import Program
 from physics.scene import (
@@ -27,6 +28,7 @@ from physics.scene import (
     Course,
     Disc,
     Material,
+    Pulley,
     Scene,
     SpringLink,
     Vector,
@@ -123,7 +125,7 @@ def world_of(scene: Scene, members: Sequence[str]) -> tuple[World, Names]:
     rows: list[tuple[Any, ...]] = []
     for link in links:
         i, j = end(link.start), end(link.end)
-        kind, tension, over, sense = PIN, -1, -1, 0.0
+        kind, tension, over, wound = PIN, -1, -1, 0.0
         rest = stiffness = damping = tolerance = 0.0
         limit = inf
         reader = i if i < len(bodies) else j
@@ -133,11 +135,11 @@ def world_of(scene: Scene, members: Sequence[str]) -> tuple[World, Names]:
             if link.tension is not None:
                 tension = programs.add(link.tension, reader)
             if link.over is not None:
-                over, sense = number[link.over.body], -1.0 if link.over.clockwise else 1.0
+                over, wound = number[link.over.body], _drawn(link, link.over, everyone, i, j)
         elif isinstance(link, SpringLink):
             kind, rest, stiffness, damping = SPRING, link.rest, link.stiffness, link.damping
         indices = (kind, i, j, tension, reader, over, 0)
-        sizes = (rest, stiffness, damping, tolerance, limit, sense)
+        sizes = (rest, stiffness, damping, tolerance, limit, wound)
         rows.append((*indices, *link.start.point, *link.end.point, *sizes))
     pushes = [force for force in scene.forces if force.body in chosen]
     pushed = [
@@ -358,6 +360,18 @@ def _pairs(
             sizes = (one.reach + other.reach, min(one.size, other.size))
             rows.append((i, j, given.get((i, j), -1), *met[both], *sizes))
     return rows
+
+
+def _drawn(link: WireLink, over: Pulley, everyone: list[Body], i: int, j: int) -> float:
+    """How far a wire is wound about its pulley as it is drawn, rad. i, j: the rows of its two ends, the page last."""
+    wheel = next(body for body in everyone if body.label == over.body)
+    ends: list[Vector] = []
+    for at, anchor in ((i, link.start), (j, link.end)):
+        pose = (*everyone[at].position, everyone[at].angle) if at < len(everyone) else (0.0, 0.0, 0.0)
+        x, y = placed(anchor.point, np.array(pose))
+        ends.append((x - wheel.position[0], y - wheel.position[1]))
+    assert isinstance(wheel.shape, Disc)
+    return drawn(ends[0], ends[1], wheel.shape.radius, over.clockwise)
 
 
 def placed(point: tuple[float, float], pose: FloatArray) -> tuple[float, float]:

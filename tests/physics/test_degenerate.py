@@ -274,18 +274,19 @@ def test_a_very_stiff_spring_and_a_very_soft_one_move_their_load_soundly() -> No
             assert off(moved.path("A")[:, 1], -1.0, 1.0) < 2.01 * G / stiffness
 
 
-@pytest.mark.xfail(
-    reason="exact mode hands over at 0.7252 s with the load 5.1 cm in its wheel; robust mode alone keeps it out, but a "
-    "wire wound round its wheel again and again loses count of its turns (UNWOUND in rows.py)",
-    strict=True,
-)
-def test_a_load_pulled_up_to_its_pulley_and_beyond_stays_on_its_wire() -> None:
+@modes
+def test_a_load_pulled_up_to_its_pulley_and_beyond_stays_on_its_wire(mode: Mode) -> None:
     scene = atwood(0.1, 5.0)
-    moved = simulate(scene, 2)
-    sound(moved, scene)
+    moved = simulate(scene, 2, mode=mode)
+    if mode == "exact":
+        sound(moved, scene)
+    # Small steps err by a little each time the load whips round: of a kilojoule turned over, not more than this.
+    assert mechanical(moved).max() < mechanical(moved)[0] + 0.1
+    assert overlap(moved, scene, every=4) < 1e-3
     ends = moved.anchors["wire"]
     # However it goes round the wheel, a taut string from end to end is no longer than the wire.
-    assert np.hypot(*(ends[:, 0] - ends[:, 1]).T).max() <= scene.wires[0].rest + 1e-9
+    longest = scene.wires[0].rest + (1e-3 if mode == "robust" else 1e-9)
+    assert np.hypot(*(ends[:, 0] - ends[:, 1]).T).max() <= longest
 
 
 def test_a_wire_that_lifts_off_its_pulley_runs_straight_and_keeps_its_length() -> None:

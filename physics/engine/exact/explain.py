@@ -68,7 +68,7 @@ def explain(
             totals,
         )
         found = [
-            *applied(mode.world, names, times[here], pos, vel),
+            *applied(mode.world, names, times[here], pos, vel, np.tile(mode.world.links["wound"], (n, 1))),
             *_constraints(mode.machine.rows, names, pulls),
             *_courses(mode.world, names, pos, acc[here], totals),
         ]

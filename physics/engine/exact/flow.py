@@ -42,12 +42,15 @@ from physics.engine.exact.machine import (
 from physics.engine.exact.touch import TOUCHING
 from physics.engine.exact.watch import (
     LENGTH,
+    SWEEP,
     decisions,
     excused,
     pair_gap,
     quickness,
     touched,
     watch,
+    whirl,
+    whirls,
 )
 from physics.engine.tables import WORLD, gravity, masses, pair_of
 from physics.jit import kernel, part
@@ -110,7 +113,8 @@ def flow(
             return REACHED
         if done[0] >= most:
             return FULL
-        h = now[H]
+        unpack(state(m), m.movable, poses(m), velocities(m))
+        h = min(now[H], 0.5 * SWEEP / max(whirl(w, m), 1e-300))
         error = step(w, m, t, h, accuracy)
         if error > 1.0 or error != error:
             now[H] = h * (max(0.2, 0.9 * error**-0.125) if error < 1e100 else 0.25)
@@ -119,8 +123,10 @@ def flow(
             continue
         watch(w, m, now[GREATEST], after(m))
         decisions(w, m, t + h, takes(m))
-        if not densify(w, m, t, h):
+        if not densify(w, m, t, h) or whirls(w, m, h):
             now[H] = 0.5 * h
+            if now[H] < SHORTEST * max(1.0, t):
+                return CRAWLS
             continue
         code, share = _first(w, m, t, h)
         if code == REACHED:
@@ -156,14 +162,12 @@ def _first(w: Any, m: Any, t: float, h: float) -> tuple[int, float]:
     """What happens first within the step, and at which share of it."""
     code, share = REACHED, 1.0
     now = clock(m)
-    for k in range(m.watched):
-        hits(m)[k] = 0
+    hits(m)[:] = 0
     for k in range(m.watched):
         if after(m)[k] < -1.0:
             when = _falls(w, m, k, t, h, _aim(m, k), 0.0, 1.0)
             if when < share - 1e-12:
-                for q in range(k):
-                    hits(m)[q] = 0
+                hits(m)[:k] = 0
             if when <= share + 1e-12:
                 hits(m)[k] = 1
                 code, share = HAPPENED, min(when, share)
@@ -178,8 +182,7 @@ def _first(w: Any, m: Any, t: float, h: float) -> tuple[int, float]:
         now[AT] = pair
         code, share = MET, met
     if code != HAPPENED:
-        for k in range(m.watched):
-            hits(m)[k] = 0
+        hits(m)[:] = 0
     return code, share
 
 

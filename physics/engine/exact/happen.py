@@ -17,14 +17,15 @@ from sketch.ink import FloatArray
 def happen(
     world: World, rows: Table, hit: IntArray, pos: FloatArray, vel: FloatArray, tell: Teller, time: float
 ) -> None:
-    """Marks in rows and world what the watched functions that crossed zero say (physics.engine.exact.watch)."""
-    n, links = 3 * len(rows), len(world.links)
+    """Marks in rows and world what the watched functions that crossed zero say (physics.engine.exact.watch).
+    Of a wire's turns about its pulley nothing is marked: they are reckoned anew when rows are gathered."""
+    n, links, supports = 3 * len(rows), len(world.links), len(world.supports)
     for k in np.flatnonzero(hit).tolist():
         if k < n:
             row_event(world, rows[k // 3], k % 3, tell, time)
         elif k < n + links:
             _break_given(world, k - n, pos, tell, time)
-        else:
+        elif k < n + links + 2 * supports:
             _support_event(world, *divmod(k - n - links, 2), pos, vel, tell, time)
 
 

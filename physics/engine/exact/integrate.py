@@ -44,6 +44,11 @@ from physics.engine.tables import WORLD, inverses
 from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
+TURNS = 6
+"""Times that a state is projected before the motion begins, at most."""
+NEAR = 1e-10
+"""m and m/s: a projection that moves nothing farther is the last."""
+
 
 @part
 def unpack(y: FloatArray, movable: int, pos: FloatArray, vel: FloatArray) -> None:
@@ -210,14 +215,20 @@ def between(dense: FloatArray, x: float, y: FloatArray) -> None:
 
 @kernel
 def projected(cells: FloatArray, memory: FloatArray) -> bool:
-    """Projects a machine's state onto its rows; whether that moved it."""
+    """Projects a machine's state onto its rows; whether that moved it. Rows are curved: what was drawn far off them
+    is brought nearer again and again."""
     w, m = head(cells, WORLD), head(memory, MACHINE)
     y, new = state(m), newest(m)
-    for k in range(m.size):
-        new[k] = y[k]
-    project(w, m, clock(m)[T], new)
     moved = False
-    for k in range(m.size):
-        moved = moved or new[k] != y[k]
-        y[k] = new[k]
+    for _ in range(TURNS):
+        for k in range(m.size):
+            new[k] = y[k]
+        project(w, m, clock(m)[T], new)
+        far = 0.0
+        for k in range(m.size):
+            far = max(far, abs(new[k] - y[k]))
+            y[k] = new[k]
+        moved = moved or far > 0.0
+        if far < NEAR:
+            break
     return moved

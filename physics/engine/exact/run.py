@@ -52,6 +52,11 @@ STUCK = 40
 """Events at one moment after which exact mode gives up."""
 LOOKS = 64
 """Steps after which it is looked whether a cluster has come to rest while nothing happened."""
+CRAWL = 512
+"""Steps within `CRAWL_TIME` after which exact mode gives up. The stiffest spring takes some for each 1e-5 s, and a
+formula that grows without bound is stopped by the step's length long before."""
+CRAWL_TIME = 1e-6
+"""s."""
 RATTLE = 12
 """Events within `CROWD_TIME` after which a rebound must rise ten times as high as before to be one."""
 
@@ -119,6 +124,8 @@ class ExactRun:
             elif code == fl.CRAWLS:
                 raise TooMuch
             elif code == fl.FULL:
+                if self._crawls():
+                    raise TooMuch
                 self._try_sleep()
 
     def cut(self, time: float) -> None:
@@ -197,7 +204,7 @@ class ExactRun:
         counts = (
             self.names.movable,
             len(self.works),
-            3 * len(rows) + len(world.links) + 2 * len(world.supports),
+            3 * len(rows) + 2 * len(world.links) + 2 * len(world.supports),
             len(world.spans),
             len(world.pairs),
         )
@@ -352,6 +359,11 @@ class ExactRun:
             raise TooMuch
         if not self.patient and len(self.lately) > self.names.movable >= MANY:
             raise TooMuch
+
+    def _crawls(self) -> bool:
+        """Whether so many steps went no way at all: more would not end."""
+        before = self.record.count - CRAWL
+        return before >= 0 and self.time - float(self.record.spans[before, 0]) < CRAWL_TIME
 
     def _stop(self) -> None:
         """A formula has no value: names it. Raises TooMuch where there is no formula: then it is the contacts that

@@ -11,6 +11,7 @@ from physics.engine.exact.decide import grip_of
 from physics.engine.exact.strike import APPROACH, overlap
 from physics.engine.exact.tell import Teller
 from physics.engine.exact.touch import TOUCHING, all_touching
+from physics.engine.forces import wind
 from physics.engine.rows import CORD, GIVEN, OFF, ON, PIN_X, POINT, ROW, STICK, refresh
 from physics.engine.tables import WORLD, link_of, radii, support_of
 from physics.engine.world import PIN, SPRING, WIRE, Table, World
@@ -77,13 +78,15 @@ def _room(world: World) -> int:
 
 @kernel
 def _gather(cells: FloatArray, before: Table, pos: FloatArray, vel: FloatArray, rows: Table) -> int:
-    """Fills rows; returns how many there are, −1 for too many contacts."""
+    """Fills rows, and reckons wires' turns about their pulleys anew; how many rows there are, −1 for too many
+    contacts."""
     w = head(cells, WORLD)
     n: Any = np.int64(0)
     if w.pairs > 0:
         n = all_touching(cells, pos, vel, TOUCHING, rows)
         if n < 0 or n > LARGE:
             return -1
+    wind(w, pos)
     n = _standing(w, rows, n)
     for k in range(n):
         row = rows[k]
@@ -120,7 +123,7 @@ def _standing(w: Any, rows: Table, n: int) -> int:
             row.ax, row.ay, row.bx, row.by = link.ax, link.ay, link.bx, link.by
             row.length, row.unique = link.rest, 1
             if link.kind == WIRE and link.over >= 0:
-                row.feature, row.sigma, row.ri = link.over, link.sense, radii(w)[link.over]
+                row.feature, row.wound, row.ri = link.over, link.wound, radii(w)[link.over]
             n += 1
     for k in range(w.supports):
         support = support_of(w, k)

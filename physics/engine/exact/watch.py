@@ -2,7 +2,7 @@
 
 Rows have three each: a force that may not pull (or a slack wire's slack), a friction that may not
 exceed its bound (or a slip that may not turn), and a place or strength that may not be left. Links and
-given normal forces follow; then the gaps of all pairs, which are watched along the whole step.
+given normal forces follow, and how far wires have turned about their pulleys; then the gaps of all pairs, which are watched along the whole step.
 Frame: SI units, y up.
 """
 
@@ -12,7 +12,8 @@ from math import hypot
 from typing import Any
 
 from physics.engine import forces
-from physics.engine.exact.machine import poses, row_of, velocities
+from physics.engine.exact.integrate import between, unpack
+from physics.engine.exact.machine import dense_of, poses, row_of, slope, velocities
 from physics.engine.exact.touch import newcomers, separation
 from physics.engine.rows import CORD, FACE, GIVEN, ON, POINT, SLIDE, STICK, turned
 from physics.engine.tables import (
@@ -23,6 +24,7 @@ from physics.engine.tables import (
     link_of,
     normals,
     pair_of,
+    radii,
     reaches,
     support_of,
 )
@@ -36,6 +38,11 @@ SLIP = 1e-9
 LENGTH = 1e-9
 """m: how far past its limit a place must be before something has happened; crossings are then located to
 rounding."""
+WINDING = 1.0
+"""rad: a wire that has turned so far about its pulley is reckoned from there on."""
+SWEEP = 1.5
+"""rad: the most that a wire may turn about its pulley in a step, by a bound on it; with `WINDING`, less than half a
+turn, beyond which it could not be told from a turn the other way."""
 SHARE = 1e-10
 """The same of a force, as a share of the greatest one."""
 
@@ -43,7 +50,7 @@ SHARE = 1e-10
 @part
 def watches(w: Any, rows: int) -> int:
     """How many functions `watch` fills in, for so many rows."""
-    return 3 * rows + w.links + 2 * w.supports
+    return 3 * rows + 2 * w.links + 2 * w.supports
 
 
 @part
@@ -94,6 +101,11 @@ def watch(w: Any, m: Any, greatest: float, seen: FloatArray) -> None:
             sunk = (gap + support.skin) / LENGTH if rate < 0.0 else NOTHING
             risen = (support.skin - gap) / LENGTH if support.risen == 0 else NOTHING
             seen[at + 2 * k + 1] = min(sunk, risen)
+    at += 2 * w.supports
+    for k in range(w.links):
+        seen[at + k] = NOTHING
+        if link_of(w, k).over >= 0 and link_of(w, k).broken == 0:
+            seen[at + k] = (WINDING - abs(forces.wound_now(w, k, pos) - link_of(w, k).wound)) / LENGTH
 
 
 @part
@@ -141,6 +153,39 @@ def quickness(w: Any, m: Any, p: int) -> float:
     i, j, vel = pair_of(w, p).i, pair_of(w, p).j, velocities(m)
     speed = hypot(vel[j, 0] - vel[i, 0], vel[j, 1] - vel[i, 1])
     return speed + abs(vel[i, 2]) * reaches(w)[i] + abs(vel[j, 2]) * reaches(w)[j]
+
+
+@part
+def whirl(w: Any, m: Any) -> float:
+    """A bound on how fast any wire turns about its pulley at this moment, rad/s; an end within the wheel counts as
+    one halfway to its rim."""
+    pos, vel = poses(m), velocities(m)
+    fastest = 0.0
+    for k in range(w.links):
+        link = link_of(w, k)
+        if link.over < 0 or link.broken != 0:
+            continue
+        ax, ay, bx, by = forces.ends_of(w, k, pos)[:4]
+        turning = 0.0
+        for end in range(2):
+            body, x, y = (link.i, ax, ay) if end == 0 else (link.j, bx, by)
+            dx, dy = pos[body, 0] + x - pos[link.over, 0], pos[body, 1] + y - pos[link.over, 1]
+            speed = hypot(vel[body, 0] - vel[body, 2] * y, vel[body, 1] + vel[body, 2] * x)
+            turning += speed / max(hypot(dx, dy), 0.5 * float(radii(w)[link.over]))
+        fastest = max(fastest, turning)
+    return fastest
+
+
+@part
+def whirls(w: Any, m: Any, h: float) -> bool:
+    """Whether a wire may turn farther about its pulley than can be told, in the step just made dense."""
+    fastest = 0.0
+    scratch = slope(m, 1)
+    for s in range(1, 3):
+        between(dense_of(m), 0.5 * s, scratch)
+        unpack(scratch, m.movable, poses(m), velocities(m))
+        fastest = max(fastest, whirl(w, m))
+    return fastest * h > SWEEP
 
 
 @part

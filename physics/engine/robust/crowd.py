@@ -88,6 +88,8 @@ class Record(NamedTuple):
     """(records, bodies + 1): how long after the record each body was struck, s; −1: not before the next."""
     jump: FloatArray
     """(records, bodies + 1, 3): by how much that changed its velocity."""
+    wound: FloatArray
+    """(records, links): how far wires were wound about their pulleys, rad."""
 
 
 def crowd_of(world: World, names: Names, pos: FloatArray, vel: FloatArray, ledger: FloatArray) -> Crowd:
@@ -178,7 +180,7 @@ def rows_of(world: World) -> Table:
         link: Any = world.links[number]
         if link["kind"] == WIRE and link["tension"] < 0:
             row = _joint(CORD, number, link)
-            row["length"], row["feature"], row["sigma"] = link["rest"], link["over"], link["sense"]
+            row["length"], row["feature"], row["wound"] = link["rest"], link["over"], link["wound"]
             row["ri"] = 0.0 if link["over"] < 0 else world.radius[link["over"]]
             found.append(row)
         elif link["kind"] == PIN:

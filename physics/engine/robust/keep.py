@@ -27,7 +27,7 @@ from physics.engine.robust.memory import (
     when_of,
     whole_of,
 )
-from physics.engine.tables import pair_of
+from physics.engine.tables import link_of, pair_of
 from physics.jit import part
 from sketch.ink import FloatArray
 
@@ -77,6 +77,8 @@ def keep(w: Any, m: Any, record: Record, kick: float) -> None:
         record.ledger[at, k] = ledger[k]
     for k in range(rows):
         record.pulls[at, k] = bars[k, IMPULSE] / kick
+    for k in range(w.links):
+        record.wound[at, k] = link_of(w, k).wound
     tally[PRESSED] = _press_on(
         w,
         real_of(m),

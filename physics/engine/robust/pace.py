@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.engine.cells import head
-from physics.engine.forces import add, clearance, powers, put
+from physics.engine.forces import add, clearance, powers, put, wind
 from physics.engine.robust.collide import FAST, strike
 from physics.engine.robust.crowd import Record
 from physics.engine.robust.keep import keep, mark
@@ -73,6 +73,7 @@ from physics.engine.tables import (
     WORLD,
     course_of,
     inverses,
+    link_of,
     masses,
     reaches,
     support_of,
@@ -156,6 +157,11 @@ def _begin(w: Any, m: Any, lag: float) -> None:
     those of the last one, but where a landing made them."""
     pos, vel, acc, now, start = pos_of(m), vel_of(m), acc_of(m), now_of(m), start_of(m)
     turns, when, force, inverse, reach = turns_of(m), when_of(m), force_of(m), inverses(w), reaches(w)
+    wind(w, pos)
+    for k in range(m.rows):
+        row = row_of(m, k)
+        if row.kind == CORD:
+            row.wound = link_of(w, row.source).wound
     for i in range(len(pos)):
         most = (
             np.inf

@@ -70,6 +70,7 @@ class RobustRun:
             np.zeros(32, np.int32),
             np.full((8, bodies), -1.0),
             np.zeros((8, bodies, 3)),
+            np.zeros((8, len(world.links))),
         )
         self.steps = 0
         self.stopped = self.asleep = False
@@ -107,6 +108,7 @@ class RobustRun:
         if kept < self._records():
             self.crowd.tally[RECORDS] = kept
             self.crowd.tally[PRESSED] = self.record.ends[kept - 1]
+            self.world.links["wound"] = self.record.wound[kept - 1]
             self.asleep = False
         self.steps = min(self.steps, int((time - self.start) / STEP + 1e-9))
         self.noted = [(at, event) for at, event in self.noted if event.time <= time]
@@ -174,9 +176,10 @@ class RobustRun:
         """All forces, and accelerations (T, bodies + 1, 3): of the substep in which each time lies."""
         at, _ = self._places(times)
         pos, vel = self.states(times)
-        acts = applied(self.given, self.names, times, pos, vel)
+        wound = self.record.wound[at]
+        acts = applied(self.given, self.names, times, pos, vel, wound)
         self._end(acts, times)
-        acts += joint_acts(self.given, self.names, self.crowd.rows, self.record.pulls[at], pos)
+        acts += joint_acts(self.given, self.names, self.crowd.rows, self.record.pulls[at], pos, wound)
         acts += contact_acts(self.given, self.names, self.record, at, pos)
         accelerations = self.record.acc[at].copy()
         if self.asleep or self.stopped:
@@ -245,7 +248,7 @@ class RobustRun:
                 **{name: _grown(getattr(record, name), grown) for name in ("pos", "vel", "acc")},
                 **{
                     name: _grown(getattr(record, name), grown)
-                    for name in ("ledger", "pulls", "ends", "struck", "jump")
+                    for name in ("ledger", "pulls", "ends", "struck", "jump", "wound")
                 },
             )
         pressed = int(tally[PRESSED])

@@ -12,7 +12,7 @@ from physics.engine.cells import head
 from physics.engine.forces import ends_of
 from physics.engine.robust.crowd import Record
 from physics.engine.rows import CORD, PIN_X, PIN_Y
-from physics.engine.tables import WORLD
+from physics.engine.tables import WORLD, link_of
 from physics.engine.world import Names, Table, World
 from physics.jit import kernel
 from sketch.ink import FloatArray
@@ -20,17 +20,19 @@ from sketch.ink import FloatArray
 IntArray = NDArray[np.int64]
 
 
-def joint_acts(world: World, names: Names, rows: Table, pulls: FloatArray, pos: FloatArray) -> list[Act]:
+def joint_acts(
+    world: World, names: Names, rows: Table, pulls: FloatArray, pos: FloatArray, wound: FloatArray
+) -> list[Act]:
     """Tensions, forces of pins, and friction under given normal forces.
 
-    pulls: (T, rows) N, along each row; pos: (T, bodies + 1, 3).
+    pulls: (T, rows) N, along each row; pos: (T, bodies + 1, 3); wound: (T, links) of wires over pulleys, rad.
     """
     acts: list[Act] = []
     if not len(rows):
         return acts
     ends = link_ends(world, pos)
     ways = np.zeros((len(pos), len(world.links), 4))
-    _ways(world.cells, pos, ways)
+    _ways(world.cells, pos, wound, ways)
     for k in range(len(rows)):
         row: Any = rows[k]
         number, size = int(row["source"]), pulls[:, k, None]
@@ -114,11 +116,12 @@ def _settled(world: World, names: Names, pairs: NDArray[np.int32], frames: IntAr
 
 
 @kernel
-def _ways(cells: FloatArray, pos: FloatArray, ways: FloatArray) -> None:
+def _ways(cells: FloatArray, pos: FloatArray, wound: FloatArray, ways: FloatArray) -> None:
     """Unit vectors along which a link pulls its ends."""
     w = head(cells, WORLD)
     for frame in range(len(pos)):
         for k in range(w.links):
+            link_of(w, k).wound = wound[frame, k]
             _, _, _, _, ux, uy, wx, wy, _ = ends_of(w, k, pos[frame])
             ways[frame, k, 0], ways[frame, k, 1] = ux, uy
             ways[frame, k, 2], ways[frame, k, 3] = wx, wy
