@@ -40,7 +40,7 @@ from physics.formula.meaning import Said, names_used
 from physics.formula.program import STATE, Code, Node, Program, ProgramError, Reading, compile_tree
 from physics.formula.vectors import split
 from physics.parts.given import Page, formula
-from physics.rectify.separation import Outline, outline_of, separation
+from physics.rectify.separation import Outline, boxes_apart, outline_of, separation
 from physics.scene import Body, Disc, Edge, Force, Material, Support, Vector
 from sketch.shapes import Circle, Polygon
 
@@ -142,6 +142,8 @@ def bearing_of(body: Body, bodies: Iterable[Body], outlines: dict[str, Outline])
     for other in bodies:
         if other.label == body.label:
             continue
+        if boxes_apart(outlines[other.label], outlines[body.label]) > RULE.touching:
+            continue
         gap, (nx, ny) = separation(outlines[other.label], outlines[body.label])
         if gap <= RULE.touching and (best is None or -ny > best[0]):
             best = (-ny, other, (nx, -ny))
@@ -169,7 +171,7 @@ def _parted(page: Page, body: Body) -> list[tuple[Said, Part]]:
         said.name: said for said in own.said if said.quantity is not None and said.quantity.role == "force"
     }
     # N in f_1 = N is the same force by another name.
-    aliases = {str(said.tree) for said in newest.values() if str(said.tree) in newest}
+    aliases = {said.tree.name for said in newest.values() if said.tree.is_Symbol and said.tree.name in newest}
     forces = [said for said in newest.values() if said.name not in aliases]
     if body.fixed and forces:
         used = names_used(page.meanings.said)

@@ -13,7 +13,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from functools import lru_cache
+from typing import Any, assert_never
 
 STATE: tuple[str, ...] = ("t", "x", "y", "phi", "v_x", "v_y", "v", "omega")
 """What a program may read at every step: time (s), centre of mass (m) and angle (rad), velocity
@@ -29,6 +30,7 @@ nobody says."""
 DEPTH = 200
 """Deepest nesting that is compiled, definitions included: far beyond handwriting, well within
 Python's own recursion limit."""
+TOO_DEEP = "a formula nested too deeply to be evaluated"
 
 
 class ProgramError(ValueError):
@@ -102,7 +104,7 @@ def compile_tree(tree: Node, lookup: Lookup, text: str | None = None) -> Program
     whose definitions go round in a circle.
     """
     names = _Names(lookup, {}, {})
-    code = _emit(tree, names, ())
+    code = _emit_tree(tree, names, (), 0)
     return Program(
         str(tree) if text is None else text, tuple(code), tuple(names.unspecified), tuple(names.others)
     )
@@ -145,6 +147,8 @@ UNARY: dict[str, Callable[[float], float]] = {
     "floor": lambda a: float(math.floor(a)),
     "ceiling": lambda a: float(math.ceil(a)),
 }
+LOG_TO_BASE = "log to base"
+"""Of two: the logarithm of the first to the base that is the second."""
 FUNCTIONS: dict[str, str] = {"Abs": "abs", "norm": "abs", "ln": "log"} | {name: name for name in UNARY}
 """SymPy's name of a function of one argument -> the operation. The length of a scalar is its size."""
 
@@ -166,40 +170,30 @@ class _Names:
         return [("read", float(STATE.index(reading.quantity) + place * len(STATE)))]
 
 
-def _emit(tree: Node, names: _Names, within: tuple[str, ...]) -> Code:
-    # Here: what was compiled can be evaluated without SymPy, which takes half a second to import.
-    import sympy
-
-    if len(within) > DEPTH:
-        raise ProgramError("a formula nested too deeply to be evaluated")
-    if isinstance(tree, float) or (getattr(tree, "is_number", False) and not tree.args):
+def _emit_tree(tree: Node, names: _Names, within: tuple[str, ...], depth: int) -> Code:
+    if isinstance(tree, float):
         return [("push", _number(tree))]
-    if isinstance(tree, sympy.Symbol):
-        return _name(tree.name, names, within)
-    inner = (*within, "")
-    if isinstance(tree, sympy.Add | sympy.Mul | sympy.Min | sympy.Max):
-        operation = {"Add": "add", "Mul": "multiply", "Min": "min", "Max": "max"}[type(tree).__name__]
-        return _fold(operation, [_emit(part, names, inner) for part in tree.args])
-    if isinstance(tree, sympy.Pow):
-        base, exponent = tree.args
-        inside = _emit(base, names, inner)
-        if exponent == sympy.Rational(1, 2):
-            return _apply("sqrt", inside)
-        if exponent == -1:
-            return _apply("invert", inside)
-        return _fold("power", [inside, _emit(exponent, names, inner)])
-    name = type(tree).__name__
-    if name == "atan2":
-        return _fold("atan2", [_emit(part, names, inner) for part in tree.args])
-    if name in FUNCTIONS and len(tree.args) == 1:
-        return _apply(FUNCTIONS[name], _emit(tree.args[0], names, inner))
-    if name == "log" and len(tree.args) == 2:
-        parts = [_apply("log", _emit(part, names, inner)) for part in tree.args]
-        return _fold("multiply", [parts[0], _apply("invert", parts[1])])
-    raise ProgramError(f"{tree} has no value that is a single number")
+    return _emit(_part_of(tree), names, within, depth)
 
 
-def _name(name: str, names: _Names, within: tuple[str, ...]) -> Code:
+def _emit(part: _Part, names: _Names, within: tuple[str, ...], depth: int) -> Code:
+    """The code of a part, with what its names stand for. within: the names that are being defined."""
+    if depth > DEPTH:
+        raise ProgramError(TOO_DEEP)
+    match part:
+        case _Constant(code):
+            return list(code)
+        case _Name(name):
+            return _defined(name, names, within, depth)
+        case _Refused(reason):
+            raise ProgramError(reason)
+        case _Operation(operation, parts):
+            return _operated(operation, [_emit(one, names, within, depth + 1) for one in parts])
+        case _:
+            assert_never(part)
+
+
+def _defined(name: str, names: _Names, within: tuple[str, ...], depth: int) -> Code:
     if name in within:
         raise ProgramError(f"{name} is defined by itself")
     meaning = names.lookup(name)
@@ -210,7 +204,92 @@ def _name(name: str, names: _Names, within: tuple[str, ...]) -> Code:
         return [("push", 0.0)]
     if isinstance(meaning, Reading):
         return names.read(meaning)
-    return _emit(meaning, names, (*within, name))
+    return _emit_tree(meaning, names, (*within, name), depth + 1)
+
+
+@dataclass(frozen=True, slots=True)
+class _Constant:
+    """Code that reads nothing."""
+
+    code: tuple[tuple[str, float], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Name:
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Refused:
+    """What has no value, in words: said only when a program comes to it."""
+
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Operation:
+    operation: str
+    parts: tuple[_Part, ...]
+
+
+_Part = _Constant | _Name | _Refused | _Operation
+"""A tree taken apart, all of it folded that does not depend on what names stand for."""
+
+
+@lru_cache(maxsize=4096)
+def _part_of(tree: Node) -> _Part:
+    """Trees never change, and a page is compiled anew whenever one of its formulas is edited: taking a tree
+    apart costs more than all that follows."""
+    return _taken_apart(tree, 0)
+
+
+def _taken_apart(tree: Node, depth: int) -> _Part:
+    # Here: what was compiled can be evaluated without SymPy, which takes half a second to import.
+    import sympy
+
+    if depth > DEPTH:
+        return _Refused(TOO_DEEP)
+    if getattr(tree, "is_number", False) and not tree.args:
+        try:
+            return _Constant((("push", _number(tree)),))
+        except ProgramError as error:
+            return _Refused(str(error))
+    if isinstance(tree, sympy.Symbol):
+        return _Name(tree.name)
+    if isinstance(tree, sympy.Add | sympy.Mul | sympy.Min | sympy.Max):
+        operation = {"Add": "add", "Mul": "multiply", "Min": "min", "Max": "max"}[type(tree).__name__]
+        return _combined(operation, tree.args, depth)
+    if isinstance(tree, sympy.Pow):
+        base, exponent = tree.args
+        if exponent == sympy.Rational(1, 2):
+            return _combined("sqrt", (base,), depth)
+        if exponent == -1:
+            return _combined("invert", (base,), depth)
+        return _combined("power", tree.args, depth)
+    name = type(tree).__name__
+    if name == "atan2":
+        return _combined("atan2", tree.args, depth)
+    if name in FUNCTIONS and len(tree.args) == 1:
+        return _combined(FUNCTIONS[name], tree.args, depth)
+    if name == "log" and len(tree.args) == 2:
+        return _combined(LOG_TO_BASE, tree.args, depth)
+    return _Refused(f"{tree} has no value that is a single number")
+
+
+def _combined(operation: str, trees: Sequence[Node], depth: int) -> _Part:
+    parts = tuple(_taken_apart(tree, depth + 1) for tree in trees)
+    codes = [list(part.code) for part in parts if isinstance(part, _Constant)]
+    if len(codes) == len(parts):
+        return _Constant(tuple(_operated(operation, codes)))
+    return _Operation(operation, parts)
+
+
+def _operated(operation: str, parts: list[Code]) -> Code:
+    """The code of an operation on what these codes give, folded where that is a number."""
+    if operation == LOG_TO_BASE:
+        number, base = (_apply("log", part) for part in parts)
+        return _fold("multiply", [number, _apply("invert", base)])
+    return _apply(operation, parts[0]) if operation in UNARY else _fold(operation, parts)
 
 
 def _fold(operation: str, parts: list[Code]) -> Code:
