@@ -38,6 +38,7 @@ from typing import Literal
 
 from physics.formula.meaning import Said, names_used
 from physics.formula.program import STATE, Code, Node, Program, ProgramError, Reading, compile_tree
+from physics.formula.said import names_in
 from physics.formula.vectors import split
 from physics.parts.given import Page, formula
 from physics.rectify.separation import Outline, boxes_apart, outline_of, separation
@@ -223,8 +224,7 @@ def _normal_by_name(name: str) -> bool:
 
 
 def _holds_coefficient(said: Said) -> bool:
-    names = [str(symbol) for symbol in getattr(said.tree, "free_symbols", ())]
-    return any(name == "mu" or name.startswith("mu_") for name in names)
+    return any(name == "mu" or name.startswith("mu_") for name in names_in(said.tree))
 
 
 def _vector(page: Page, body: Body, said: Said) -> Force | None:

@@ -9,7 +9,7 @@ from math import hypot, inf
 import sympy
 
 from physics.formula.meaning import DENSITY, GRAVITY, PER_METRE, SOLIDS, Meanings, Said
-from physics.formula.program import STATE, Lookup, Node, ProgramError, Reading, compile_tree
+from physics.formula.program import STATE, Lookup, Node, Program, ProgramError, Reading, compile_tree
 from physics.formula.quantities import Role
 from physics.formula.said import names_in
 from physics.formula.statements import labelled
@@ -75,6 +75,11 @@ def constant_of(said: Said, find: Lookup) -> float | None:
         program = compile_tree(said.tree, find, said.text)
     except ProgramError:
         return None
+    return value_at_rest(program)
+
+
+def value_at_rest(program: Program) -> float | None:
+    """A program's value where all that it reads of the motion is zero; None where it has none."""
     value = program.value([0.0] * (len(STATE) * (1 + len(program.others))))
     return value if value == value else None
 
@@ -88,28 +93,28 @@ def lookup(
     end. `W` is that weight's size, m g; `m_B` is B's mass whatever the formula is about; `v_B`, `v_xB`,
     `v_yB` and `omega_B` are read from B's motion.
     """
-    labels = {part.label for part in sketch.components}
-    body = solid_of(sketch, component)
 
     def find(name: str) -> Node | float | Reading | None:
         if name in STATE:
             return None
-        motion = _motion_of(name, masses)
-        if motion is not None and meanings.find(name, component) is None:
-            return motion
-        base, _, index = name.partition("_")
-        if index in labels and meanings.find(name, component) is None:
-            own = next((s for s in reversed(meanings.said) if s.name == base and s.component == index), None)
-            if own is not None:
-                return own.tree
-            if base in ("m", "W") and index in masses:
-                return masses[index] * (g if base == "W" else 1.0)
-        own = next((s for s in reversed(meanings.said) if s.name == name and s.component == component), None)
-        if own is not None and not (name == "W" and body in masses and isinstance(own.tree, sympy.Tuple)):
-            return own.tree
-        if body is not None and body in masses and name in ("m", "W"):
-            return masses[body] * (g if name == "W" else 1.0)
         said = meanings.find(name, component)
+        if said is None:
+            motion = _motion_of(name, masses)
+            if motion is not None:
+                return motion
+            base, _, index = name.partition("_")
+            if any(part.label == index for part in sketch.components):
+                of_it = meanings.find(base, index)
+                if of_it is not None and of_it.component == index:
+                    return of_it.tree
+                if base in ("m", "W") and index in masses:
+                    return masses[index] * (g if base == "W" else 1.0)
+        own = said if said is not None and said.component == component else None
+        if own is not None and not (name == "W" and isinstance(own.tree, sympy.Tuple)):
+            return own.tree
+        body = solid_of(sketch, component) if name in ("m", "W") else None
+        if body is not None and body in masses:
+            return masses[body] * (g if name == "W" else 1.0)
         if said is not None:
             return said.tree
         return g if name == "g" else None
