@@ -108,9 +108,9 @@ class Sketch:
 
     def __post_init__(self) -> None:
         labels = [component.label for component in self.components]
-        twice = {label for label in labels if labels.count(label) > 1}
-        if twice:
-            raise SketchError(f"label {min(twice)!r} is borne by two components; labels must be unique")
+        if len(set(labels)) < len(labels):
+            twice = min(label for label in labels if labels.count(label) > 1)
+            raise SketchError(f"label {twice!r} is borne by two components; labels must be unique")
         self.kinds()
         for component in self.components:
             for end in component.ends:

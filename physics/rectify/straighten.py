@@ -261,6 +261,8 @@ def _directions(
     """(which sides share directions; by how much they are off, page units)."""
     count = len(sides)
     straight = level | upright
+    if len(straight) == count:
+        return [None] * count, 0.0
     group: list[tuple[int, bool]] = [(k, False) for k in range(count)]
     meant = [(k - 1, k, True) for k in range(count)]
     if count % 2 == 0:
