@@ -8,13 +8,13 @@ from math import hypot, inf
 
 import sympy
 
-from physics.formula.meaning import DENSITY, GRAVITY, PER_METRE, SOLIDS, Meanings, Said
+from physics.formula.meaning import DENSITY, GRAVITY, SOLIDS, Meanings, Said
 from physics.formula.program import STATE, Lookup, Node, Program, ProgramError, Reading, compile_tree
 from physics.formula.quantities import Role
 from physics.formula.said import names_in
+from physics.formula.standard import square_metres
 from physics.formula.statements import labelled
 from physics.formula.vectors import split
-from sketch.geometry import solid_area
 from sketch.page import Component, Sketch
 from sketch.shapes import Circle, Polygon
 
@@ -29,7 +29,7 @@ def mass_of(sketch: Sketch, meanings: Meanings, component: Component) -> tuple[f
     nothing is said, by its area.
     """
     assert isinstance(component.shape, Circle | Polygon)
-    area = solid_area(component.shape) / PER_METRE**2
+    area = square_metres(component.shape)
     default = DENSITY * area
     find = lookup(sketch, meanings, component.label, {}, GRAVITY)
     for role in MASS_ROLES:
