@@ -37,13 +37,13 @@ from math import hypot, isfinite
 from typing import Literal
 
 from physics.formula.meaning import Said, names_used
-from physics.formula.program import STATE, Code, Node, Program, ProgramError, Reading, compile_tree
+from physics.formula.program import STATE, Code, Node, Program, ProgramError, Reading, compile_tree, constant
 from physics.formula.said import names_in
 from physics.formula.vectors import split
 from physics.parts.given import Page, formula
-from physics.rectify.separation import Outline, boxes_apart, outline_of, separation
+from physics.rectify.contacts import outlines_of
+from physics.rectify.separation import Outline, boxes_apart, separation
 from physics.scene import Body, Disc, Edge, Force, Material, Support, Vector
-from sketch.shapes import Circle, Polygon
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +104,7 @@ def act(page: Page, bodies: tuple[Body, ...]) -> Acting:
         if not said:
             continue
         if not outlines:
-            outlines = _outlines(page)
+            outlines = outlines_of(page.sketch)
         bearing = bearing_of(body, bodies, outlines)
         given: Support | None = None
         own: list[Force] = []
@@ -153,14 +153,6 @@ def bearing_of(body: Body, bodies: Iterable[Body], outlines: dict[str, Outline])
     _, on, normal = best
     edge = _edge(on, normal)
     return Bearing(on, normal if edge is None else _normal(edge), edge)
-
-
-def _outlines(page: Page) -> dict[str, Outline]:
-    return {
-        part.label: outline_of(part.shape)
-        for part in page.sketch.components
-        if isinstance(part.shape, Circle | Polygon)
-    }
 
 
 def _parted(page: Page, body: Body) -> list[tuple[Said, Part]]:
@@ -230,7 +222,7 @@ def _holds_coefficient(said: Said) -> bool:
 def _vector(page: Page, body: Body, said: Said) -> Force | None:
     pair = split(said.tree)
     trees = pair or ((said.tree, None) if said.name[-1] == "x" else (None, said.tree))
-    zero = Program("0", (("push", 0.0),))
+    zero = constant(0.0)
     x, y = (zero if tree is None else page.program(said, body.label, tree) for tree in trees)
     return None if x is None or y is None else Force(said.name, body.label, x, y)
 

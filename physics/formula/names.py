@@ -55,7 +55,13 @@ def mass_of(sketch: Sketch, meanings: Meanings, component: Component) -> tuple[f
 def gravity_of(sketch: Sketch, meanings: Meanings) -> float | None:
     """The acceleration of free fall that the page gives, m/s²; None where it gives none that is a number."""
     said = meanings.of(None, "gravity", None)
-    return None if said is None else constant_of(said, lookup(sketch, meanings, None, {}, GRAVITY))
+    return None if said is None else number_said(sketch, meanings, said)
+
+
+def number_said(sketch: Sketch, meanings: Meanings, said: Said, g: float = GRAVITY) -> float | None:
+    """The value at the start of what the page says of a component, where nothing but the page is known; None if
+    there is none. g: m/s², where the page does not say."""
+    return constant_of(said, lookup(sketch, meanings, said.component, {}, g))
 
 
 def _size(said: Said, find: Lookup) -> float | None:
