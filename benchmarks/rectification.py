@@ -30,6 +30,7 @@ from data_gen.problems import PROBLEMS, problem
 from evaluation.metrics.matching import match_components
 from physics.build import build
 from physics.rectify import Rectified, rectify
+from physics.rectify.correction import points_of
 from recognizer.interpret import interpret, notes_of
 from recognizer.oracle import Oracle
 from sketch.ink import FloatArray
@@ -79,7 +80,7 @@ def ways(count: int, seed: int) -> dict[str, float]:
         claim = interpret(page.truth.ink, Oracle(page.truth), notes_of(page.truth))
         one = rectify(claim)
         corrected.append(one)
-        points += sum(len(_points(part.shape)) for part in claim.components)
+        points += sum(len(points_of(part.shape)) for part in claim.components)
         was, now = _from_truth(page.truth, claim), _from_truth(page.truth, one.sketch)
         before, after, worst = before + was, after + now, worst + int(now > was)
     total = sum(one.displacement for one in corrected)
@@ -100,9 +101,9 @@ def _from_truth(truth: Sketch, sketch: Sketch) -> float:
     pairs = match_components(truth, sketch)
     total = 0.0
     for meant, found in pairs.items():
-        goals = _points(truth.component(meant).shape)
+        goals = points_of(truth.component(meant).shape)
         total += sum(
-            min(hypot(x - u, y - v) for u, v in goals) for x, y in _points(sketch.component(found).shape)
+            min(hypot(x - u, y - v) for u, v in goals) for x, y in points_of(sketch.component(found).shape)
         )
     return total
 
@@ -177,7 +178,7 @@ def crowded(seed: int, index: int, noise: float) -> Sketch:
 
 
 def _shaken(shape: Shape, aside: float, noise: float, rng: np.random.Generator) -> Shape:
-    there = np.array(_points(shape)) + (aside, 0.0) + noise * rng.normal(size=(len(_points(shape)), 2))
+    there = np.array(points_of(shape)) + (aside, 0.0) + noise * rng.normal(size=(len(points_of(shape)), 2))
     match shape:
         case Circle():
             return replace(shape, centre=_pair(there[0]))
@@ -185,18 +186,6 @@ def _shaken(shape: Shape, aside: float, noise: float, rng: np.random.Generator) 
             return Polygon(there)
         case Spring() | Wire() | Arrow():
             return replace(shape, start=_pair(there[0]), end=_pair(there[1]))
-        case _:
-            assert_never(shape)
-
-
-def _points(shape: Shape) -> list[tuple[float, float]]:
-    match shape:
-        case Circle():
-            return [shape.centre]
-        case Polygon():
-            return [(x, y) for x, y in shape.vertices.tolist()]
-        case Spring() | Wire() | Arrow():
-            return [shape.start, shape.end]
         case _:
             assert_never(shape)
 

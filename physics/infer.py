@@ -37,12 +37,13 @@ from math import hypot, isfinite
 from typing import Literal
 
 from physics.formula.meaning import Said, names_used
-from physics.formula.program import STATE, Code, Node, Program, ProgramError, Reading, compile_tree
+from physics.formula.program import STATE, Code, Node, Program, ProgramError, Reading, compile_tree, constant
+from physics.formula.said import names_in
 from physics.formula.vectors import split
 from physics.parts.given import Page, formula
-from physics.rectify.separation import Outline, outline_of, separation
+from physics.rectify.contacts import outlines_of
+from physics.rectify.separation import Outline, boxes_apart, separation
 from physics.scene import Body, Disc, Edge, Force, Material, Support, Vector
-from sketch.shapes import Circle, Polygon
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +104,7 @@ def act(page: Page, bodies: tuple[Body, ...]) -> Acting:
         if not said:
             continue
         if not outlines:
-            outlines = _outlines(page)
+            outlines = outlines_of(page.sketch)
         bearing = bearing_of(body, bodies, outlines)
         given: Support | None = None
         own: list[Force] = []
@@ -142,6 +143,8 @@ def bearing_of(body: Body, bodies: Iterable[Body], outlines: dict[str, Outline])
     for other in bodies:
         if other.label == body.label:
             continue
+        if boxes_apart(outlines[other.label], outlines[body.label]) > RULE.touching:
+            continue
         gap, (nx, ny) = separation(outlines[other.label], outlines[body.label])
         if gap <= RULE.touching and (best is None or -ny > best[0]):
             best = (-ny, other, (nx, -ny))
@@ -150,14 +153,6 @@ def bearing_of(body: Body, bodies: Iterable[Body], outlines: dict[str, Outline])
     _, on, normal = best
     edge = _edge(on, normal)
     return Bearing(on, normal if edge is None else _normal(edge), edge)
-
-
-def _outlines(page: Page) -> dict[str, Outline]:
-    return {
-        part.label: outline_of(part.shape)
-        for part in page.sketch.components
-        if isinstance(part.shape, Circle | Polygon)
-    }
 
 
 def _parted(page: Page, body: Body) -> list[tuple[Said, Part]]:
@@ -169,7 +164,7 @@ def _parted(page: Page, body: Body) -> list[tuple[Said, Part]]:
         said.name: said for said in own.said if said.quantity is not None and said.quantity.role == "force"
     }
     # N in f_1 = N is the same force by another name.
-    aliases = {str(said.tree) for said in newest.values() if str(said.tree) in newest}
+    aliases = {said.tree.name for said in newest.values() if said.tree.is_Symbol and said.tree.name in newest}
     forces = [said for said in newest.values() if said.name not in aliases]
     if body.fixed and forces:
         used = names_used(page.meanings.said)
@@ -221,14 +216,13 @@ def _normal_by_name(name: str) -> bool:
 
 
 def _holds_coefficient(said: Said) -> bool:
-    names = [str(symbol) for symbol in getattr(said.tree, "free_symbols", ())]
-    return any(name == "mu" or name.startswith("mu_") for name in names)
+    return any(name == "mu" or name.startswith("mu_") for name in names_in(said.tree))
 
 
 def _vector(page: Page, body: Body, said: Said) -> Force | None:
     pair = split(said.tree)
     trees = pair or ((said.tree, None) if said.name[-1] == "x" else (None, said.tree))
-    zero = Program("0", (("push", 0.0),))
+    zero = constant(0.0)
     x, y = (zero if tree is None else page.program(said, body.label, tree) for tree in trees)
     return None if x is None or y is None else Force(said.name, body.label, x, y)
 

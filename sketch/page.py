@@ -108,9 +108,9 @@ class Sketch:
 
     def __post_init__(self) -> None:
         labels = [component.label for component in self.components]
-        twice = {label for label in labels if labels.count(label) > 1}
-        if twice:
-            raise SketchError(f"label {min(twice)!r} is borne by two components; labels must be unique")
+        if len(set(labels)) < len(labels):
+            twice = min(label for label in labels if labels.count(label) > 1)
+            raise SketchError(f"label {twice!r} is borne by two components; labels must be unique")
         self.kinds()
         for component in self.components:
             for end in component.ends:
@@ -139,12 +139,11 @@ class Sketch:
     def kinds(self) -> tuple[StrokeKind | None, ...]:
         """For every stroke of the ink what it is taken to be; None when nobody claims it."""
         kinds: list[StrokeKind | None] = [None] * len(self.ink)
-        claimed: list[tuple[StrokeKind, int]] = []
-        for component in self.components:
-            claimed.extend((component.kind, stroke) for stroke in component.strokes)
-        for expression in self.expressions:
-            claimed.extend(("math", stroke) for stroke in expression.strokes)
-        claimed.extend((gesture.kind, gesture.stroke) for gesture in self.gestures)
+        claimed: list[tuple[StrokeKind, int]] = [
+            *((component.kind, stroke) for component in self.components for stroke in component.strokes),
+            *(("math", stroke) for expression in self.expressions for stroke in expression.strokes),
+            *((gesture.kind, gesture.stroke) for gesture in self.gestures),
+        ]
         for kind, stroke in claimed:
             if not 0 <= stroke < len(kinds):
                 raise SketchError(f"a {kind} names stroke {stroke}; the page has {len(kinds)}")

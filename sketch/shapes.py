@@ -7,6 +7,7 @@ physics' business, how it was drawn the recognizer's.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import Literal, assert_never
 
 import numpy as np
@@ -138,7 +139,7 @@ def outline(shape: Shape, steps: int = 64) -> FloatArray:
 
 
 def _finite(shape: object, *values: float) -> None:
-    if not np.all(np.isfinite(values)):
+    if not all(map(isfinite, values)):
         name = type(shape).__name__.lower()
         raise ShapeError(f"the {name} has a coordinate that is not a finite number")
 

@@ -26,6 +26,7 @@ from physics.formula.program import (
     Reading,
     compile_tree,
 )
+from physics.formula.skeleton import TOO_DEEP
 from physics.scene import Course
 
 RATES: dict[str, str | None] = {
@@ -134,7 +135,7 @@ def _rate(tree: Node, reads: list[str], names: _Names) -> Node:
 def _resolved(tree: Node, names: _Names, within: tuple[str, ...]) -> Node:
     """Every name replaced by what it stands for, until what the motion has is all that is left."""
     if len(within) > DEPTH:
-        raise ProgramError("a formula nested too deeply to be evaluated")
+        raise ProgramError(TOO_DEEP)
     if isinstance(tree, int | float):
         return _number(tree)
     if not isinstance(tree, sympy.Expr):

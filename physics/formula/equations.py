@@ -20,10 +20,9 @@ import sympy
 from physics.formula.program import Node, ProgramError, compile_tree
 from physics.formula.quantities import SOLIDS, quantities_named, quantity_of
 from physics.formula.said import Meanings, Relation, Said, names_in
-from physics.formula.standard import DENSITY, GRAVITY, PER_METRE
+from physics.formula.standard import DENSITY, GRAVITY, square_metres
 from physics.formula.statements import labelled
 from physics.formula.units import in_si
-from sketch.geometry import solid_area
 from sketch.page import Component, Sketch
 from sketch.shapes import Circle, Polygon
 
@@ -84,7 +83,7 @@ class Letters:
         part = None if letter.component is None else self.parts[letter.component]
         if part is None or not isinstance(part.shape, Circle | Polygon) or letter.name != "m":
             return None
-        return DENSITY * solid_area(part.shape) / PER_METRE**2
+        return DENSITY * square_metres(part.shape)
 
     def owner(self, letter: Letter) -> str | None:
         """Whose an unknown is of which the equation does not tell: the only one's that can have it and

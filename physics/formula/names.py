@@ -8,13 +8,13 @@ from math import hypot, inf
 
 import sympy
 
-from physics.formula.meaning import DENSITY, GRAVITY, PER_METRE, SOLIDS, Meanings, Said
-from physics.formula.program import STATE, Lookup, Node, ProgramError, Reading, compile_tree
+from physics.formula.meaning import DENSITY, GRAVITY, SOLIDS, Meanings, Said
+from physics.formula.program import STATE, Lookup, Node, Program, ProgramError, Reading, compile_tree
 from physics.formula.quantities import Role
 from physics.formula.said import names_in
+from physics.formula.standard import square_metres
 from physics.formula.statements import labelled
 from physics.formula.vectors import split
-from sketch.geometry import solid_area
 from sketch.page import Component, Sketch
 from sketch.shapes import Circle, Polygon
 
@@ -29,7 +29,7 @@ def mass_of(sketch: Sketch, meanings: Meanings, component: Component) -> tuple[f
     nothing is said, by its area.
     """
     assert isinstance(component.shape, Circle | Polygon)
-    area = solid_area(component.shape) / PER_METRE**2
+    area = square_metres(component.shape)
     default = DENSITY * area
     find = lookup(sketch, meanings, component.label, {}, GRAVITY)
     for role in MASS_ROLES:
@@ -55,7 +55,13 @@ def mass_of(sketch: Sketch, meanings: Meanings, component: Component) -> tuple[f
 def gravity_of(sketch: Sketch, meanings: Meanings) -> float | None:
     """The acceleration of free fall that the page gives, m/s²; None where it gives none that is a number."""
     said = meanings.of(None, "gravity", None)
-    return None if said is None else constant_of(said, lookup(sketch, meanings, None, {}, GRAVITY))
+    return None if said is None else number_said(sketch, meanings, said)
+
+
+def number_said(sketch: Sketch, meanings: Meanings, said: Said, g: float = GRAVITY) -> float | None:
+    """The value at the start of what the page says of a component, where nothing but the page is known; None if
+    there is none. g: m/s², where the page does not say."""
+    return constant_of(said, lookup(sketch, meanings, said.component, {}, g))
 
 
 def _size(said: Said, find: Lookup) -> float | None:
@@ -75,6 +81,11 @@ def constant_of(said: Said, find: Lookup) -> float | None:
         program = compile_tree(said.tree, find, said.text)
     except ProgramError:
         return None
+    return value_at_rest(program)
+
+
+def value_at_rest(program: Program) -> float | None:
+    """A program's value where all that it reads of the motion is zero; None where it has none."""
     value = program.value([0.0] * (len(STATE) * (1 + len(program.others))))
     return value if value == value else None
 
@@ -88,28 +99,28 @@ def lookup(
     end. `W` is that weight's size, m g; `m_B` is B's mass whatever the formula is about; `v_B`, `v_xB`,
     `v_yB` and `omega_B` are read from B's motion.
     """
-    labels = {part.label for part in sketch.components}
-    body = solid_of(sketch, component)
 
     def find(name: str) -> Node | float | Reading | None:
         if name in STATE:
             return None
-        motion = _motion_of(name, masses)
-        if motion is not None and meanings.find(name, component) is None:
-            return motion
-        base, _, index = name.partition("_")
-        if index in labels and meanings.find(name, component) is None:
-            own = next((s for s in reversed(meanings.said) if s.name == base and s.component == index), None)
-            if own is not None:
-                return own.tree
-            if base in ("m", "W") and index in masses:
-                return masses[index] * (g if base == "W" else 1.0)
-        own = next((s for s in reversed(meanings.said) if s.name == name and s.component == component), None)
-        if own is not None and not (name == "W" and body in masses and isinstance(own.tree, sympy.Tuple)):
-            return own.tree
-        if body is not None and body in masses and name in ("m", "W"):
-            return masses[body] * (g if name == "W" else 1.0)
         said = meanings.find(name, component)
+        if said is None:
+            motion = _motion_of(name, masses)
+            if motion is not None:
+                return motion
+            base, _, index = name.partition("_")
+            if any(part.label == index for part in sketch.components):
+                of_it = meanings.find(base, index)
+                if of_it is not None and of_it.component == index:
+                    return of_it.tree
+                if base in ("m", "W") and index in masses:
+                    return masses[index] * (g if base == "W" else 1.0)
+        own = said if said is not None and said.component == component else None
+        if own is not None and not (name == "W" and isinstance(own.tree, sympy.Tuple)):
+            return own.tree
+        body = solid_of(sketch, component) if name in ("m", "W") else None
+        if body is not None and body in masses:
+            return masses[body] * (g if name == "W" else 1.0)
         if said is not None:
             return said.tree
         return g if name == "g" else None

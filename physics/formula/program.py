@@ -13,22 +13,23 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import assert_never
+
+from physics.formula.operations import BINARY as BINARY
+from physics.formula.operations import UNARY as UNARY
+from physics.formula.operations import Code as Code
+from physics.formula.operations import evaluated, operated
+from physics.formula.skeleton import DEPTH as DEPTH
+from physics.formula.skeleton import TOO_DEEP, Constant, Name, Operation, Part, Refused, part_of
+from physics.formula.skeleton import Node as Node
 
 STATE: tuple[str, ...] = ("t", "x", "y", "phi", "v_x", "v_y", "v", "omega")
 """What a program may read at every step: time (s), centre of mass (m) and angle (rad), velocity
 (m/s), speed (m/s), angular velocity (rad/s)."""
 
-Node = Any
-"""A SymPy tree; SymPy has no types of its own."""
-
 Lookup = Callable[[str], "Node | float | Reading | None"]
 """What a name stands for: a number, another tree, a quantity of another body's motion, or None when
 nobody says."""
-
-DEPTH = 200
-"""Deepest nesting that is compiled, definitions included: far beyond handwriting, well within
-Python's own recursion limit."""
 
 
 class ProgramError(ValueError):
@@ -69,23 +70,7 @@ class Program:
     def value(self, state: Sequence[float]) -> float:
         """The formula's value; NaN where it, or any part of it, has none. state: values of `STATE`, in
         that order, of its own body and then of each of `others`."""
-        try:
-            stack: list[float] = []
-            for operation, operand in self.code:
-                if operation == "push":
-                    stack.append(operand)
-                elif operation == "read":
-                    stack.append(state[int(operand)])
-                elif operation in BINARY:
-                    right = stack.pop()
-                    stack[-1] = BINARY[operation](stack[-1], right)
-                else:
-                    stack[-1] = UNARY[operation](stack[-1])
-                if not math.isfinite(stack[-1]):
-                    return math.nan
-        except (ArithmeticError, ValueError):
-            return math.nan
-        return stack[-1]
+        return evaluated(self.code, state)
 
 
 def constant(value: float, text: str | None = None) -> Program:
@@ -98,57 +83,14 @@ def compile_tree(tree: Node, lookup: Lookup, text: str | None = None) -> Program
 
     Names of `STATE` are read from the motion unless `lookup` says something else of them; others
     are replaced by what `lookup` gives, through any number of definitions; None counts as zero and is
-    listed in `unspecified`; a `Reading` is read from the motion of the body that it names. Raises ProgramError for a tree with parts that have no scalar value, or
-    whose definitions go round in a circle.
+    listed in `unspecified`; a `Reading` is read from the motion of the body that it names. Raises
+    ProgramError for a tree with parts that have no scalar value, or whose definitions go round in a circle.
     """
     names = _Names(lookup, {}, {})
-    code = _emit(tree, names, ())
+    code = _emit_tree(tree, names, (), 0)
     return Program(
         str(tree) if text is None else text, tuple(code), tuple(names.unspecified), tuple(names.others)
     )
-
-
-def _power(base: float, exponent: float) -> float:
-    if exponent == 2:
-        return base * base
-    result = base**exponent
-    return result if isinstance(result, float) else math.nan
-
-
-BINARY: dict[str, Callable[[float, float], float]] = {
-    "add": lambda a, b: a + b,
-    "multiply": lambda a, b: a * b,
-    "power": _power,
-    "atan2": math.atan2,
-    "min": min,
-    "max": max,
-}
-UNARY: dict[str, Callable[[float], float]] = {
-    "sin": math.sin,
-    "cos": math.cos,
-    "tan": math.tan,
-    "cot": lambda a: 1 / math.tan(a),
-    "sec": lambda a: 1 / math.cos(a),
-    "csc": lambda a: 1 / math.sin(a),
-    "asin": math.asin,
-    "acos": math.acos,
-    "atan": math.atan,
-    "sinh": math.sinh,
-    "cosh": math.cosh,
-    "tanh": math.tanh,
-    "exp": math.exp,
-    "log": math.log,
-    "sqrt": math.sqrt,
-    "invert": lambda a: 1 / a,
-    "abs": abs,
-    "sign": lambda a: math.copysign(1.0, a) if a else 0.0,
-    "floor": lambda a: float(math.floor(a)),
-    "ceiling": lambda a: float(math.ceil(a)),
-}
-FUNCTIONS: dict[str, str] = {"Abs": "abs", "norm": "abs", "ln": "log"} | {name: name for name in UNARY}
-"""SymPy's name of a function of one argument -> the operation. The length of a scalar is its size."""
-
-Code = list[tuple[str, float]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,40 +108,30 @@ class _Names:
         return [("read", float(STATE.index(reading.quantity) + place * len(STATE)))]
 
 
-def _emit(tree: Node, names: _Names, within: tuple[str, ...]) -> Code:
-    # Here: what was compiled can be evaluated without SymPy, which takes half a second to import.
-    import sympy
-
-    if len(within) > DEPTH:
-        raise ProgramError("a formula nested too deeply to be evaluated")
-    if isinstance(tree, float) or (getattr(tree, "is_number", False) and not tree.args):
-        return [("push", _number(tree))]
-    if isinstance(tree, sympy.Symbol):
-        return _name(tree.name, names, within)
-    inner = (*within, "")
-    if isinstance(tree, sympy.Add | sympy.Mul | sympy.Min | sympy.Max):
-        operation = {"Add": "add", "Mul": "multiply", "Min": "min", "Max": "max"}[type(tree).__name__]
-        return _fold(operation, [_emit(part, names, inner) for part in tree.args])
-    if isinstance(tree, sympy.Pow):
-        base, exponent = tree.args
-        inside = _emit(base, names, inner)
-        if exponent == sympy.Rational(1, 2):
-            return _apply("sqrt", inside)
-        if exponent == -1:
-            return _apply("invert", inside)
-        return _fold("power", [inside, _emit(exponent, names, inner)])
-    name = type(tree).__name__
-    if name == "atan2":
-        return _fold("atan2", [_emit(part, names, inner) for part in tree.args])
-    if name in FUNCTIONS and len(tree.args) == 1:
-        return _apply(FUNCTIONS[name], _emit(tree.args[0], names, inner))
-    if name == "log" and len(tree.args) == 2:
-        parts = [_apply("log", _emit(part, names, inner)) for part in tree.args]
-        return _fold("multiply", [parts[0], _apply("invert", parts[1])])
-    raise ProgramError(f"{tree} has no value that is a single number")
+def _emit_tree(tree: Node, names: _Names, within: tuple[str, ...], depth: int) -> Code:
+    if isinstance(tree, float):
+        return [("push", tree if math.isfinite(tree) else math.nan)]
+    return _emit(part_of(tree), names, within, depth)
 
 
-def _name(name: str, names: _Names, within: tuple[str, ...]) -> Code:
+def _emit(part: Part, names: _Names, within: tuple[str, ...], depth: int) -> Code:
+    """The code of a part, with what its names stand for. within: the names that are being defined."""
+    if depth > DEPTH:
+        raise ProgramError(TOO_DEEP)
+    match part:
+        case Constant(code):
+            return list(code)
+        case Name(name):
+            return _defined(name, names, within, depth)
+        case Refused(reason):
+            raise ProgramError(reason)
+        case Operation(operation, parts):
+            return operated(operation, [_emit(one, names, within, depth + 1) for one in parts])
+        case _:
+            assert_never(part)
+
+
+def _defined(name: str, names: _Names, within: tuple[str, ...], depth: int) -> Code:
     if name in within:
         raise ProgramError(f"{name} is defined by itself")
     meaning = names.lookup(name)
@@ -210,33 +142,4 @@ def _name(name: str, names: _Names, within: tuple[str, ...]) -> Code:
         return [("push", 0.0)]
     if isinstance(meaning, Reading):
         return names.read(meaning)
-    return _emit(meaning, names, (*within, name))
-
-
-def _fold(operation: str, parts: list[Code]) -> Code:
-    code = parts[0]
-    for part in parts[1:]:
-        joined: Code = [*code, *part, (operation, 0.0)]
-        code = _folded(joined) if len(code) == len(part) == 1 else joined
-    return code
-
-
-def _apply(operation: str, inside: Code) -> Code:
-    joined: Code = [*inside, (operation, 0.0)]
-    return _folded(joined) if len(inside) == 1 else joined
-
-
-def _folded(code: Code) -> Code:
-    """One number instead of the code, where it reads nothing and has a value."""
-    if any(operation == "read" for operation, _ in code):
-        return code
-    value = Program("", tuple(code)).value(())
-    return code if math.isnan(value) else [("push", value)]
-
-
-def _number(tree: Node) -> float:
-    try:
-        value = float(tree)
-    except (TypeError, ValueError, OverflowError):
-        raise ProgramError(f"{tree} is not a real number") from None
-    return value if math.isfinite(value) else math.nan
+    return _emit_tree(meaning, names, (*within, name), depth + 1)

@@ -92,5 +92,10 @@ def names_used(said: Iterable[Said | Relation]) -> frozenset[str]:
 @lru_cache(maxsize=4096)
 def names_in(tree: Any) -> frozenset[str]:
     """The names in a tree, its units not among them."""
-    symbols: Iterable[Any] = getattr(tree, "free_symbols", ())
-    return frozenset(symbol.name for symbol in symbols if not isinstance(symbol, Unit))
+    return frozenset(symbol.name for symbol in symbols_in(tree) if not isinstance(symbol, Unit))
+
+
+@lru_cache(maxsize=4096)
+def symbols_in(tree: Any) -> frozenset[Any]:
+    """The symbols in a tree, names and units. SymPy looks for them anew each time."""
+    return frozenset(getattr(tree, "free_symbols", ()))

@@ -19,6 +19,10 @@ class Dimension:
     metres: Fraction = Fraction(0)
     seconds: Fraction = Fraction(0)
 
+    def __hash__(self) -> int:
+        # A fraction's own hash is a modular inverse, which takes longer than all that is looked up by it.
+        return hash((self.kilograms.numerator, self.metres.numerator, self.seconds.numerator))
+
     def __mul__(self, other: Dimension) -> Dimension:
         return Dimension(
             self.kilograms + other.kilograms, self.metres + other.metres, self.seconds + other.seconds

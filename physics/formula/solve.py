@@ -24,7 +24,7 @@ from physics.formula.bounded import bounded
 from physics.formula.equations import Letter, Letters, Unsolvable, lacking, number, sides
 from physics.formula.program import Node
 from physics.formula.quantities import INSTEAD, QUANTITIES, Quantity, Role, quantities_named, quantity_of
-from physics.formula.said import Meanings, Relation, Said
+from physics.formula.said import Meanings, Relation, Said, symbols_in
 from physics.formula.si import NUMBER
 from sketch.page import Sketch
 
@@ -126,7 +126,7 @@ class _Equation:
     right: Node
 
     def unknowns(self, letters: Letters) -> set[sympy.Symbol]:
-        symbols: set[sympy.Symbol] = {*self.left.free_symbols, *self.right.free_symbols}
+        symbols = symbols_in(self.left) | symbols_in(self.right)
         return {symbol for symbol in symbols if symbol in letters.unknown and symbol not in letters.known}
 
 
@@ -153,7 +153,7 @@ def _worked(system: list[_Equation], letters: Letters, notices: list[str]) -> li
     """What a system gives; a notice of what it gives, or why not."""
     for symbol in _unknowns(system, letters):
         mass = letters.default_mass(letters.unknown[symbol])
-        cancels = all(symbol not in _difference(one, letters).free_symbols for one in system)
+        cancels = all(symbol not in symbols_in(_difference(one, letters)) for one in system)
         if mass is not None and (cancels or len(_unknowns(system, letters)) > len(system)):
             letters.known[symbol] = mass
     unknowns = _unknowns(system, letters)
@@ -198,7 +198,7 @@ def _unknowns(system: Sequence[_Equation], letters: Letters) -> list[sympy.Symbo
 
 def _difference(equation: _Equation, letters: Letters) -> Node:
     """What must be zero, without the masses and lengths that multiply all of it: they are not zero."""
-    symbols = {*equation.left.free_symbols, *equation.right.free_symbols} & set(letters.unknown)
+    symbols = (symbols_in(equation.left) | symbols_in(equation.right)) & letters.unknown.keys()
     fixed = frozenset(one for one in symbols if _role(letters.unknown[one], letters) in _NEVER_ZERO)
     return _without(equation.left, equation.right, fixed)
 

@@ -5,11 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import sympy
 
 from physics.formula.program import Node
-from physics.formula.quantities import Quantity, Role, quantities_named, quantity_of, role_of
+from physics.formula.quantities import Owner, Quantity, Role, quantities_named, quantity_of, role_of
+from physics.formula.said import names_in
+from physics.formula.si import Dimension
 from physics.formula.units import has_units, size_of_units
 from sketch.formula.parse import expression as read_again
 from sketch.formula.units import Unit
@@ -41,6 +44,15 @@ def stated(expression: Expression, notices: list[str]) -> Line:
     if tree is None:
         notices.append(f"{text!r} is not a formula that can be read: {problem}")
         return Line(text)
+    line = _line(tree, text)
+    if not line.definitions and line.relation is None:
+        notices.append(f"{text}: this does not say what one quantity is; write it as name = value.")
+    return line
+
+
+@lru_cache(maxsize=4096)
+def _line(tree: Node, text: str) -> Line:
+    """What a formula states."""
     if isinstance(tree, sympy.Equality):
         for left, right in (tree.args, tree.args[::-1]):
             names = _names(left, text)
@@ -48,9 +60,8 @@ def stated(expression: Expression, notices: list[str]) -> Line:
                 return Line(text, ((names[0], right),))
             if len(names) > 1 and isinstance(right, sympy.Tuple) and len(right.args) == len(names):
                 return Line(text, tuple(zip(names, right.args, strict=True)))
-        if any(not isinstance(symbol, Unit) for symbol in tree.free_symbols):
+        if names_in(tree):
             return Line(text, relation=tree)
-    notices.append(f"{text}: this does not say what one quantity is; write it as name = value.")
     return Line(text)
 
 
@@ -95,13 +106,18 @@ def meant(name: str, part: Component | None, tree: Node) -> Quantity | None:
     if quantity is None:
         return None
     if isinstance(tree, sympy.Expr) and has_units(tree):
-        size = size_of_units(tree)
-        fitting = [one for one in quantities_named(name) if kind in one.owners and one.size == size]
-        return fitting[0] if fitting else quantity
+        return _measured(name, kind, size_of_units(tree)) or quantity
     if part is None or quantity.role != "angle" or name.partition("_")[0] != "alpha":
         return quantity
     inclined = not isinstance(part.shape, Polygon) or part.fixed or len(part.shape.vertices) == 3
     return quantity if inclined else role_of("angular_acceleration", part.kind)
+
+
+@lru_cache(maxsize=4096)
+def _measured(name: str, kind: Owner, size: Dimension) -> Quantity | None:
+    """The quantity of such a thing that goes by this name and has this dimension."""
+    fitting = (one for one in quantities_named(name) if kind in one.owners and one.size == size)
+    return next(fitting, None)
 
 
 def _names(side: Node, text: str) -> list[str]:

@@ -161,9 +161,9 @@ def _product(bases: list[tuple[Node, Node]]) -> Dimension | None:
     return size
 
 
-def _units_of(tree: Node) -> set[Unit]:
-    symbols = getattr(tree, "free_symbols", ())
-    return {one for one in symbols if isinstance(one, Unit)}
+@lru_cache(maxsize=4096)
+def _units_of(tree: Node) -> frozenset[Unit]:
+    return frozenset(one for one in getattr(tree, "free_symbols", ()) if isinstance(one, Unit))
 
 
 def _replaced(tree: Node, factors: dict[Unit, Node]) -> Node:

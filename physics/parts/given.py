@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from physics.formula.meaning import PER_METRE, Meanings, Role, Said
-from physics.formula.names import MASS_ROLES, constant_of, lookup, mass_of, solid_of
+from physics.formula.names import MASS_ROLES, lookup, mass_of, solid_of, value_at_rest
 from physics.formula.program import STATE, Lookup, Node, Program, ProgramError, compile_tree
 from physics.scene import Vector
 from sketch.page import Component, Sketch
@@ -79,12 +79,16 @@ class Page:
 
     def value(self, said: Said, label: str, low: float, high: float, must: str) -> float | None:
         """The value at the start of what is said of a component, None when it cannot be."""
-        value = constant_of(said, self.names(label))
-        if value is None or not low <= value <= high:
+        try:
+            made = compile_tree(said.tree, self.names(label), formula(said))
+        except ProgramError:
+            made = None
+        value = None if made is None else value_at_rest(made)
+        if made is None or value is None or not low <= value <= high:
             self.notices.append(f"{said.text} of {label}: {must}; it is not used.")
             return None
-        made = self.program(said, label, said.tree)
-        if made is not None and not made.constant:
+        self.tell_zeros(said, label, made)
+        if not made.constant:
             self.notices.append(f"{said.text} of {label} changes in time; its value at the start is used.")
         return value
 

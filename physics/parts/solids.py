@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from math import hypot, inf
 
@@ -48,15 +49,24 @@ def solids_of(sketch: Sketch, notices: list[str]) -> list[Figure]:
         if isinstance(part.shape, Circle):
             found.append(Figure(part, (), part.shape.centre))
         elif isinstance(part.shape, Polygon):
-            drawn: list[Point] = [(x, y) for x, y in part.shape.vertices.tolist()]
-            corners = hull(drawn)
-            area, centre = _area_and_centre(corners)
-            if area < RULE.thin:
+            filled = _filled(part.shape)
+            if filled is None:
                 notices.append(f"{part.label} encloses no area; it is not part of the motion.")
             else:
-                own = _area_and_centre(drawn)[0]
-                found.append(Figure(part, tuple(corners), centre, area / own if own >= RULE.thin else inf))
+                found.append(Figure(part, *filled))
     return found
+
+
+@lru_cache(maxsize=1024)  # an edited formula changes no shape
+def _filled(polygon: Polygon) -> tuple[tuple[Point, ...], Point, float] | None:
+    """(corners, centre, filled) of a `Figure`; None for what encloses no area."""
+    drawn: list[Point] = [(x, y) for x, y in polygon.vertices.tolist()]
+    corners = hull(drawn)
+    area, centre = _area_and_centre(corners)
+    if area < RULE.thin:
+        return None
+    own = _area_and_centre(drawn)[0]
+    return tuple(corners), centre, area / own if own >= RULE.thin else inf
 
 
 def body_of(page: Page, figure: Figure, courses: Sequence[Course]) -> Body:

@@ -24,8 +24,7 @@ from collections.abc import Container, Mapping
 from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, pi, sin
 
-from physics.formula.meaning import GRAVITY
-from physics.formula.names import constant_of, lookup
+from physics.formula.names import number_said
 from physics.parts.given import Spoken
 from physics.rectify.contacts import Touching
 from physics.rectify.correction import Correction, Step, hangs, reshaped, shift, taken_along, turn
@@ -66,7 +65,7 @@ def angle_of(sketch: Sketch, spoken: Spoken, part: Component) -> LinkAngle | Non
     said = spoken.of(part, "angle")
     if said is None or said.anchor is None or not isinstance(part.shape, Spring | Wire):
         return None
-    angle = constant_of(said, lookup(sketch, spoken.meanings, part.label, {}, GRAVITY))
+    angle = number_said(sketch, spoken.meanings, said)
     if angle is None or not 0 <= angle <= pi / 2:
         return None
     top, bottom = sorted((part.shape.start, part.shape.end), key=lambda end: end[1])

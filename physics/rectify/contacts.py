@@ -231,7 +231,8 @@ def _closed(
             gaps[row], direction = separation(here[pair.one], here[pair.other])
             for label, sign in ((pair.one, -1.0), (pair.other, 1.0)):
                 if label in column:
-                    slopes[row, column[label] : column[label] + 2] = np.multiply(sign, direction)
+                    slopes[row, column[label]] = sign * direction[0]
+                    slopes[row, column[label] + 1] = sign * direction[1]
         if settled and np.abs(gaps).max() <= RULE.closed:
             return {
                 label: (float(moves[k]), float(moves[k + 1]))

@@ -83,7 +83,7 @@ def displacements(before: Sketch, after: Sketch) -> dict[str, tuple[float, ...]]
 
 
 def _ways(old: Shape, new: Shape) -> tuple[float, ...]:
-    here, there = _points(old), _points(new)
+    here, there = points_of(old), points_of(new)
     if len(here) == len(there):
         straight = [hypot(x - u, y - v) for (x, y), (u, v) in zip(here, there, strict=True)]
         # Vertices may run the other way round now, from the same first one.
@@ -92,7 +92,8 @@ def _ways(old: Shape, new: Shape) -> tuple[float, ...]:
     return tuple(min(hypot(x - u, y - v) for x, y in here) for u, v in there)
 
 
-def _points(shape: Shape) -> list[Point]:
+def points_of(shape: Shape) -> list[Point]:
+    """A shape's vertices, its centre or its ends, page units."""
     match shape:
         case Circle():
             return [shape.centre]

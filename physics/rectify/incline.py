@@ -26,8 +26,7 @@ from dataclasses import dataclass
 from itertools import combinations
 from math import atan2, cos, hypot, pi, radians, sin
 
-from physics.formula.meaning import GRAVITY
-from physics.formula.names import constant_of, lookup
+from physics.formula.names import number_said
 from physics.parts.given import Spoken
 from physics.rectify.contacts import Touching
 from physics.rectify.correction import (
@@ -133,9 +132,7 @@ def tilt(sketch: Sketch, spoken: Spoken, touching: Touching, skipped: Container[
         if part.label in skipped or not isinstance(part.shape, Polygon):
             continue
         said = spoken.of(part, "angle")
-        angle = None
-        if said is not None:
-            angle = constant_of(said, lookup(sketch, spoken.meanings, part.label, {}, GRAVITY))
+        angle = None if said is None else number_said(sketch, spoken.meanings, said)
         if angle is not None and RULE.flattest <= angle <= pi / 2 - RULE.flattest:
             why = "its incline is given the angle that the page says it has"
             follows = f"it keeps its place on {part.label}, whose incline is given its angle"

@@ -16,6 +16,8 @@ from sketch.shapes import Circle, Point, Solid
 
 FLUSH = 1e-9
 """Page units: nearer than this, the minimum-distance vector has no direction of its own."""
+SURE = 1e-3
+"""Page units: far more than rounding makes of heights on the largest page."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +138,10 @@ def _block_to_disc(block: Outline, disc: Outline) -> tuple[float, Point]:
 def _blocks(one: Outline, other: Outline) -> tuple[float, Point]:
     best, direction, over = -1e300, (0.0, -1.0), False
     for block, seen, sign in ((one, other, 1.0), (other, one, -1.0)):
+        cx, cy = seen.centre
         for k, ((x, y), (nx, ny)) in enumerate(zip(block.corners, block.normals, strict=True)):
+            if nx * (cx - x) + ny * (cy - y) < best - SURE:
+                continue  # the mean corner is no lower than the lowest
             heights = [nx * px + ny * py for px, py in seen.corners]
             lowest = min(heights)
             gap = lowest - (nx * x + ny * y)

@@ -140,11 +140,11 @@ def _turned_on_purpose(vertices: list[Point]) -> bool:
     lengths = [hypot(x, y) for x, y in sides]
     if max(lengths) - min(lengths) <= RULE.exact:
         return True
-    right = [
+    right = (
         (pi / 2 - _between(sides[k - 1], sides[k])) * max(lengths[k - 1], lengths[k]) <= RULE.exact
         for k in range(len(sides))
-    ]
-    return all(right) or (len(sides) == 3 and any(right))
+    )
+    return any(right) if len(sides) == 3 else all(right)
 
 
 def _leaning(vertices: list[Point]) -> tuple[frozenset[int], frozenset[int]]:
@@ -191,13 +191,11 @@ def _levelled(
 
 
 def _plausible(drawn: list[Point], after: list[Point]) -> bool:
-    whole = _area(drawn)
+    whole, left = _area(drawn), _area(after)
     xs, ys = [x for x, _ in drawn], [y for _, y in drawn]
     extent = hypot(max(xs) - min(xs), max(ys) - min(ys))
     most = max(hypot(x - u, y - v) for (x, y), (u, v) in zip(drawn, after, strict=True))
-    return _area(after) * whole > 0 and (
-        abs(_area(after)) >= RULE.least_area * abs(whole) and most <= RULE.farthest * extent
-    )
+    return left * whole > 0 and abs(left) >= RULE.least_area * abs(whole) and most <= RULE.farthest * extent
 
 
 def _groups(count: int, edges: frozenset[int]) -> list[int]:
@@ -212,14 +210,15 @@ def _groups(count: int, edges: frozenset[int]) -> list[int]:
 
 def _shared(values: list[float], edges: frozenset[int]) -> list[float]:
     """Values with one mean for all vertices that the edges join."""
+    members: dict[int, list[float]] = {}
     group = _groups(len(values), edges)
-    result = list(values)
-    for name in set(group):
-        members = [values[k] for k in range(len(values)) if group[k] == name]
-        if len(set(members)) > 1:
-            mean = sum(sorted(members)) / len(members)
-            result = [mean if group[k] == name else value for k, value in enumerate(result)]
-    return result
+    for name, value in zip(group, values, strict=True):
+        members.setdefault(name, []).append(value)
+    shared = {
+        name: sum(sorted(several)) / len(several) if len(set(several)) > 1 else several[0]
+        for name, several in members.items()
+    }
+    return [shared[name] for name in group]
 
 
 def _related(
@@ -261,19 +260,20 @@ def _directions(
     """(which sides share directions; by how much they are off, page units)."""
     count = len(sides)
     straight = level | upright
-    group: list[tuple[int, bool]] = [(k, False) for k in range(count)]
-    meant = [(k - 1, k, True) for k in range(count)]
+    if len(straight) == count:
+        return [None] * count, 0.0
+    # What is straight lies along an axis, as truly as can be.
+    meant = [((k or count) - 1, k, True) for k in range(count)]
     if count % 2 == 0:
         meant += [(k, k + count // 2, False) for k in range(count // 2)]
     found: list[tuple[float, int, int, bool]] = []
     for one, other, across in meant:
-        one %= count
-        if one in straight or other in straight:
-            continue  # along an axis, as truly as can be
-        angle = _between(sides[one], sides[other])
-        angle, most = (pi / 2 - angle, RULE.right) if across else (angle, RULE.parallel)
-        if angle <= most:
-            found.append((angle, one, other, across))
+        if one not in straight and other not in straight:
+            angle = _between(sides[one], sides[other])
+            angle, most = (pi / 2 - angle, RULE.right) if across else (angle, RULE.parallel)
+            if angle <= most:
+                found.append((angle, one, other, across))
+    group: list[tuple[int, bool]] = [(k, False) for k in range(count)]
     off = 0.0
     for angle, one, other, across in sorted(found):  # the truest first
         (name, turned), (old, other_turned) = group[one], group[other]

@@ -15,7 +15,7 @@ import sympy
 
 from physics.build import build
 from physics.formula.meaning import Meanings, read
-from physics.formula.names import constant_of, lookup, solid_of
+from physics.formula.names import MASS_ROLES, lookup, number_said, solid_of
 from physics.formula.program import STATE, Node, ProgramError, compile_tree
 from physics.parts.links import RULE as LINKS
 from physics.parts.pulleys import drawn_as
@@ -139,7 +139,7 @@ class Exam:
         said = self.meanings.find("t", None)
         if said is None or said.component is not None:
             return None
-        return constant_of(said, lookup(self.sketch, self.meanings, None, {}, self.g))
+        return number_said(self.sketch, self.meanings, said, self.g)
 
     def _support(self, label: str) -> str | None:
         """What carries a body: what a given normal force would stand in for."""
@@ -156,7 +156,7 @@ class Exam:
             return None
         if program.unspecified:
             return None
-        state = [0.0] * (len(STATE) * (1 + len(program.others)))
+        state: list[float] = []  # where nothing is read
         if not program.constant:
             state = self._state((solid_of(self.sketch, question.label), *program.others), question)
         value = program.value(state)
@@ -181,7 +181,7 @@ class Exam:
         found: list[float] = []
         for said in self.meanings.said:
             if said.name.partition("_")[0] in ANGLES:
-                value = constant_of(said, lookup(self.sketch, self.meanings, said.component, {}, self.g))
+                value = number_said(self.sketch, self.meanings, said, self.g)
                 found += [] if value is None or not 0 < value < pi / 2 else [value]
         return tuple(dict.fromkeys(found))
 
@@ -191,8 +191,8 @@ class Exam:
         found: list[Open] = []
         for body in self.scene.bodies:
             kind = self.sketch.component(body.label).kind
-            roles = ("mass", "weight", "density")
-            if not body.fixed and all(self.meanings.of(body.label, role, kind) is None for role in roles):
+            given = any(self.meanings.of(body.label, role, kind) is not None for role in MASS_ROLES)
+            if not body.fixed and not given:
                 found.append(Open("the mass", "m", OPEN.factor * body.mass, body.label))
         for spring in self.scene.springs:
             if self.meanings.of(spring.label, "stiffness", "spring") is None:

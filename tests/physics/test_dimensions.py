@@ -13,7 +13,7 @@ from sympy import Rational, pi, sqrt
 
 from physics.formula.dimensions import check
 from physics.formula.meaning import read
-from physics.formula.si import NUMBER
+from physics.formula.si import NUMBER, Dimension
 from physics.formula.units import SIZES, factor
 from sketch.formula.names import UNIT_NAMES
 
@@ -204,3 +204,11 @@ def test_no_formula_upsets_the_analysis(name: str, formula: str, label: str | No
     sketch = saying((f"{name} = {formula}", label))
     for finding in check(sketch, read(sketch)):
         assert finding.message
+
+
+@given(st.lists(st.fractions(-3, 3, max_denominator=4), min_size=6, max_size=6))
+def test_dimensions_that_are_equal_are_one_key(exponents: list[Fraction]) -> None:
+    one, other = Dimension(*exponents[:3]), Dimension(*exponents[3:])
+    there_and_back = one * other / other
+    assert there_and_back == one
+    assert len({one, there_and_back, other}) == (1 if one == other else 2)

@@ -21,6 +21,7 @@ from physics.formula.program import (
     compile_tree,
     constant,
 )
+from physics.formula.skeleton import part_of
 from sketch.formula.parse import parse
 
 T, X, V = sympy.Symbol("t"), sympy.Symbol("x"), sympy.Symbol("v_x")
@@ -169,6 +170,28 @@ def as_sympy_says(operation: str, *numbers: float) -> float:
         return math.nan
     found = float(value)
     return found if math.isfinite(found) else math.nan
+
+
+@given(TREES, st.sampled_from([2.5, None, X * B, sympy.Symbol("c")]))
+def test_what_is_remembered_of_a_tree_says_nothing_of_its_names(
+    tree: sympy.Basic, meaning: float | sympy.Basic | None
+) -> None:
+    def other(name: str) -> float | sympy.Basic | None:
+        return meaning if name == "a" else lookup(name)
+
+    def programs() -> list[Program | str]:
+        made: list[Program | str] = []
+        for names in (lookup, other, lookup):
+            try:
+                made.append(compile_tree(tree, names))
+            except ProgramError as error:
+                made.append(str(error))
+        return made
+
+    before = programs()
+    part_of.cache_clear()
+    assert repr(programs()) == repr(before)
+    assert repr(before[0]) == repr(before[2])
 
 
 @pytest.mark.parametrize("operation", UNARY)
