@@ -38,6 +38,7 @@ from typing import Literal
 
 from physics.formula.meaning import Said, names_used
 from physics.formula.program import STATE, Code, Node, Program, ProgramError, Reading, compile_tree, constant
+from physics.formula.quantities import axis_of
 from physics.formula.said import names_in
 from physics.formula.vectors import split
 from physics.parts.given import Page, formula
@@ -184,7 +185,7 @@ def _parted(page: Page, body: Body) -> list[tuple[Said, Part]]:
             page.notices.append(f"{said.text} of {body.label} cannot be worked out: {error}. It is not used.")
             continue
         index = said.name.partition("_")[2]
-        if pair is not None or _along_axis(index):
+        if pair is not None or axis_of(said.name):
             vectors.append(said)
         elif index in FRICTION_NAMES or _holds_coefficient(said):
             friction.append(said)
@@ -203,11 +204,6 @@ def _parted(page: Page, body: Body) -> list[tuple[Said, Part]]:
         ("friction", friction),
     )
     return [(said, part) for part, several in parts for said in several]
-
-
-def _along_axis(index: str) -> bool:
-    """Whether a force's subscript names a direction: x or y, after a number at most."""
-    return index[-1:] in ("x", "y") and (len(index) == 1 or index[:-1].isdigit())
 
 
 def _normal_by_name(name: str) -> bool:

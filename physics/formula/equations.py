@@ -18,7 +18,7 @@ from math import isfinite
 import sympy
 
 from physics.formula.program import Node, ProgramError, compile_tree
-from physics.formula.quantities import SOLIDS, quantities_named, quantity_of
+from physics.formula.quantities import SOLIDS, axis_of, quantities_named, quantity_of
 from physics.formula.said import Meanings, Relation, Said, names_in
 from physics.formula.standard import DENSITY, GRAVITY, square_metres
 from physics.formula.statements import labelled
@@ -185,9 +185,8 @@ def _along(force: Node, name: str, axis: str) -> Node | None:
         return None if isinstance(force, sympy.Tuple) else force
     if isinstance(force, sympy.Tuple) and len(force.args) == 2:
         return force.args["xy".index(axis)]
-    if name.endswith(("x", "y")):
-        return force if name.endswith(axis) else sympy.Integer(0)
-    return None
+    along = axis_of(name)
+    return None if along is None else force if along == axis else sympy.Integer(0)
 
 
 def number(tree: Node, known: Mapping[sympy.Symbol, float] | None = None) -> float | None:

@@ -195,6 +195,13 @@ def quantity_of(name: str, kind: Owner) -> Quantity | None:
     return None
 
 
+def axis_of(name: str) -> str | None:
+    """The axis that a name's subscript tells, x or y, alone or after a number (F_x, f_2y); None: F_max tells none."""
+    index = name.partition("_")[2]
+    tells = index[-1:] in ("x", "y") and (len(index) == 1 or index[:-1].isdigit())
+    return index[-1] if tells else None
+
+
 @lru_cache(maxsize=4096)
 def quantities_named(name: str) -> tuple[Quantity, ...]:
     """All quantities that anything could have under this name."""

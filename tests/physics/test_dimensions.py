@@ -170,7 +170,7 @@ def test_every_unit_of_the_language_has_a_dimension_and_a_size() -> None:
         )
         of_base = there.to_base_units()
         assert float(factor(name)) == pytest.approx(of_base.magnitude, rel=1e-12), name
-        powers = {unit: Fraction(power) for unit, power in of_base.unit_items() if unit != "radian"}
+        powers = {unit: Fraction(str(power)) for unit, power in of_base.unit_items() if unit != "radian"}
         assert powers.get("kilogram", 0) == size.kilograms, name
         assert powers.get("meter", 0) == size.metres, name
         assert powers.get("second", 0) == size.seconds, name

@@ -8,7 +8,7 @@ from physics_pages import page
 
 from physics.build import build
 from physics.formula.meaning import read
-from physics.formula.quantities import INSTEAD, QUANTITIES, quantities_named, quantity_of
+from physics.formula.quantities import INSTEAD, QUANTITIES, axis_of, quantities_named, quantity_of
 from physics.formula.si import ACCELERATION, ENERGY, FORCE, LENGTH, MASS, NUMBER, TIME, VELOCITY, Dimension
 from sketch.formula.parse import parse
 from sketch.shapes import COMPONENT_KINDS, ComponentKind
@@ -199,3 +199,11 @@ def test_the_formula_of_a_line_stays_with_what_it_says() -> None:
     meanings = read(page((BALL, WIRE), (("g = 10", None, None), ("(v_x, v_y) = (1, 2)", "B", None))))
     assert [(said.name, said.expression) for said in meanings.said] == [("g", 0), ("v_x", 1), ("v_y", 1)]
     assert meanings.said[1].tree == parse("1")
+
+
+@pytest.mark.parametrize(
+    ("name", "axis"),
+    [("F_x", "x"), ("f_2y", "y"), ("v_0x", "x"), ("F_max", None), ("F", None), ("x", None), ("F_xy", None)],
+)
+def test_a_subscript_tells_an_axis_alone_or_after_a_number(name: str, axis: str | None) -> None:
+    assert axis_of(name) == axis
