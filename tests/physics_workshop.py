@@ -122,7 +122,9 @@ def places(shape: Shape) -> list[Point]:
         case Circle(centre, _):
             return [centre]
         case Polygon():
-            return sorted((round(x, 3), x, y) for x, y in shape.vertices.tolist())  # type: ignore[misc]
+            return sorted(
+                ((x, y) for x, y in shape.vertices.tolist()), key=lambda point: (round(point[0], 3), *point)
+            )
         case _:
             return sorted([shape.start, shape.end])
 

@@ -146,7 +146,7 @@ def test_undoing_what_is_not_there_is_refused() -> None:
     with pytest.raises(KeyError, match="was not undone"):
         redo(corrected, ("C1", "F"))
     with pytest.raises(ValueError, match="rules are C1"):
-        rectify(corrected.drawn, {("C9", "F")})  # type: ignore[arg-type]
+        rectify(corrected.drawn, {("C9", "F")})
 
 
 @settings(EACH, max_examples=20)
