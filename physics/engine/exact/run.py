@@ -272,7 +272,7 @@ class ExactRun:
                     ha.release(self.world, self.names, body, self.tell, self.time)
             self._press(rows, approach)
             rows["shut"] = 0
-            heat = st.strike(
+            self.works[0] += st.strike(
                 self.world.cells,
                 rows,
                 self.pos,
@@ -282,9 +282,6 @@ class ExactRun:
                 np.zeros_like(self.vel),
                 struck,
             )
-            if not np.isfinite(heat):
-                raise TooMuch
-            self.works[0] += heat
             self.tell.impacts(self.time, rows, struck)
         if not self._hold(rows, closed & (rows["kind"] <= CORD), rise) and not (approach.any() or pins.any()):
             return

@@ -51,18 +51,15 @@ def strike(
     before: FloatArray,
     struck: FloatArray,
 ) -> float:
-    """Changes `vel`; returns the heat, J: NaN, and velocities as they were, where the blows find no end (a jam that
-    pins and wires and floors do not let go). rows[k].press must be known.
+    """Changes `vel`; returns the heat, J. rows[k].press must be known.
 
     struck (rows,): how fast each contact closed when it was hit, m/s, zero if it was not. before: room for
     velocities. rise: m, see `RISE`; crowded: nothing rebounds.
     """
     w = head(cells, WORLD)
     energy = kinetic(w, vel)
-    first = vel.copy()
     for k in range(len(rows)):
         struck[k] = 0.0
-    needed = True
     for turn in range(8 * ROUNDS):
         refresh_table(rows, pos, vel)
         needed = False
@@ -94,16 +91,11 @@ def strike(
             for a in range(3):
                 before[i, a] = vel[i, a]
         start = kinetic(w, vel)
-        if not _sweep(w, rows, vel):
-            break
+        _sweep(w, rows, vel)
         if kinetic(w, vel) > start * (1.0 + 1e-12):
             _calm(w, rows, vel, before, start)
-    if needed:
-        for i in range(len(vel)):
-            for a in range(3):
-                vel[i, a] = first[i, a]
     refresh_table(rows, pos, vel)
-    return np.nan if needed else energy - kinetic(w, vel)
+    return energy - kinetic(w, vel)
 
 
 @kernel
@@ -135,9 +127,9 @@ def hold(cells: FloatArray, rows: Table, pos: FloatArray, vel: FloatArray, rise:
 
 
 @part
-def _sweep(w: Any, rows: Table, vel: FloatArray) -> bool:
+def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
     """Impulses of the rows that take part (`bound` is 1, `HELD` or `JAMMED`), one after another, until none changes
-    any more; whether that came to an end."""
+    any more."""
     inverse = inverses(w)
     for k in range(len(rows)):
         rows[k].force = rows[k].rub = 0.0
@@ -178,8 +170,7 @@ def _sweep(w: Any, rows: Table, vel: FloatArray) -> bool:
                         vel[j, a] += inverse[j, a] * row.T[3 + a] * change
                     moved = max(moved, abs(change) * give)
         if moved <= SETTLED * speed:
-            return True
-    return False
+            return
 
 
 @kernel
