@@ -83,7 +83,7 @@ def test_momentum_and_its_moment_are_kept_where_nothing_is_fixed(mode: Mode, sce
     assert off(moment, moment[0], 1 + mass.sum()) < (1e-8 if mode == "exact" else 1e-3)
 
 
-@nearly
+@modes
 @SCENES
 @given(scenes())
 def test_energy_is_never_created_by_contacts_and_links_and_the_ledger_balances(
