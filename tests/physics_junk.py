@@ -23,9 +23,7 @@ def junk(seed: int) -> Sketch:
     for k in range(int(rng.integers(1, 6))):
         fixed = bool(rng.random() < 0.4)
         if rng.random() < 0.4:
-            parts.append(
-                Component(Circle(anywhere(), float(rng.uniform(3, 80))), label=f"S{k}", fixed=fixed)
-            )
+            parts.append(Component(Circle(anywhere(), float(rng.uniform(3, 80))), label=f"S{k}", fixed=fixed))
         else:
             corners = np.array(anywhere()) + rng.uniform(-120, 120, size=(int(rng.integers(3, 6)), 2))
             parts.append(Component(Polygon(corners), label=f"S{k}", fixed=fixed))

@@ -134,6 +134,19 @@ def aim(
     return Step(sketch)
 
 
+def no_worse(
+    before: Sketch, clipped: Sketch, label: str, said: SaidAngle, held: Container[str]
+) -> dict[str, Shape]:
+    """What else must change so that a link's angle is no farther from what is said of it after clipping than it was
+    before: it then keeps the angle that it was drawn with."""
+    start, end = points_of(before.component(label).shape)
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    wanted = _measured(said, before.component(label).shape)
+    if abs(_off(clipped, label, wanted)) <= abs(_between(wanted, dx, dy)) + RULE.exact:
+        return {}
+    return _aimed(clipped, label, LinkAngle(atan2(abs(dx), abs(dy)), steep=True), held)
+
+
 def _turned(
     sketch: Sketch, wanted: Mapping[str, LinkAngle], touching: Touching
 ) -> tuple[Sketch, dict[str, str]] | None:
@@ -183,7 +196,11 @@ def _off(sketch: Sketch, label: str, said: LinkAngle) -> float:
     """By how much a link must be turned, radians."""
     shape = sketch.component(label).shape
     assert isinstance(shape, Spring | Wire)
-    dx, dy = shape.end[0] - shape.start[0], shape.end[1] - shape.start[1]
+    return _between(said, shape.end[0] - shape.start[0], shape.end[1] - shape.start[1])
+
+
+def _between(said: LinkAngle, dx: float, dy: float) -> float:
+    """By how much a direction must be turned to have this angle, radians."""
     ux, uy = said.direction(dx, dy)
     return atan2(dx * uy - dy * ux, dx * ux + dy * uy)
 

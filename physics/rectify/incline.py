@@ -129,20 +129,52 @@ def raised(foot: Point, corner: Point, top: Point, angle: float) -> Point:
     return foot[0] + distance * vx, foot[1] + distance * vy
 
 
-def tilt(sketch: Sketch, spoken: Spoken, touching: Touching, skipped: Container[str] = ()) -> Step:
-    """C3 on every right-angled triangle that an angle is said of, but those skipped."""
+def angles_of(sketch: Sketch, spoken: Spoken) -> dict[str, float]:
+    """The angles that the page says its polygons have as inclines, radians, by label."""
+    found: dict[str, float] = {}
+    for part in sketch.components:
+        if isinstance(part.shape, Polygon):
+            said = spoken.of(part, "angle")
+            angle = None if said is None else number_said(sketch, spoken.meanings, said)
+            if angle is not None and RULE.flattest <= angle <= pi / 2 - RULE.flattest:
+                found[part.label] = angle
+    return found
+
+
+def no_worse(drawn: Polygon, after: Polygon, angle: float) -> Polygon:
+    """A triangle that was straightened, with the angle at its foot as near to what is said of it as it was drawn;
+    what is no incline as it is."""
+    was, now = incline_of(drawn), incline_of(after)
+    if was is None or now is None:
+        return after
+    before = _at_foot(drawn, was)
+    if abs(_at_foot(after, now) - angle) <= abs(before - angle):
+        return after
+    vertices = after.vertices.copy()
+    foot, corner, top = (_point(vertices[k]) for k in (now.foot, now.corner, now.top))
+    vertices[now.top] = raised(foot, corner, top, before)
+    return Polygon(vertices)
+
+
+def _at_foot(shape: Polygon, found: Incline) -> float:
+    """The angle between base and long side, radians."""
+    foot, corner, top = (shape.vertices[k] for k in (found.foot, found.corner, found.top))
+    one, other = corner - foot, top - foot
+    return abs(atan2(float(one[0] * other[1] - one[1] * other[0]), float(one @ other)))
+
+
+def tilt(
+    sketch: Sketch, angles: Mapping[str, float], touching: Touching, skipped: Container[str] = ()
+) -> Step:
+    """C3 on every right-angled triangle that an angle is said of (radians, by label), but those skipped."""
     after = sketch
     corrections: list[Correction] = []
-    for part in sketch.components:
-        if part.label in skipped or not isinstance(part.shape, Polygon):
-            continue
-        said = spoken.of(part, "angle")
-        angle = None if said is None else number_said(sketch, spoken.meanings, said)
-        if angle is not None and RULE.flattest <= angle <= pi / 2 - RULE.flattest:
-            why = "its incline is given the angle that the page says it has"
-            follows = f"it keeps its place on {part.label}, whose incline is given its angle"
-            shapes = _tilted(after, part.label, angle, touching)
-            corrections += correction("C3", part.label, shapes_of(after), shapes, why, follows)
+    why = "its incline is given the angle that the page says it has"
+    for label, angle in angles.items():
+        if label not in skipped:
+            follows = f"it keeps its place on {label}, whose incline is given its angle"
+            shapes = _tilted(after, label, angle, touching)
+            corrections += correction("C3", label, shapes_of(after), shapes, why, follows)
             after = reshaped(after, shapes)
     return Step(after, tuple(corrections))
 

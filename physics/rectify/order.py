@@ -23,7 +23,8 @@ from functools import cache
 
 from physics.formula.meaning import read
 from physics.parts.given import Spoken, spoken
-from physics.rectify.angles import SaidAngle, aim, angles_of
+from physics.rectify.angles import SaidAngle, aim
+from physics.rectify.angles import angles_of as links_said
 from physics.rectify.attachments import attach
 from physics.rectify.contacts import Pair, outlines_of, pairs_of, resting, touch
 from physics.rectify.correction import (
@@ -37,6 +38,7 @@ from physics.rectify.correction import (
     with_anchors,
 )
 from physics.rectify.flush import lay
+from physics.rectify.incline import angles_of as inclines_said
 from physics.rectify.incline import tilt
 from physics.rectify.straighten import straighten
 from sketch.page import Sketch
@@ -62,10 +64,10 @@ def rectify(sketch: Sketch, without: Iterable[Key] = ()) -> Rectified:
     meanings = read(sketch)
     said = spoken(meanings)
 
-    angles = angles_of(sketch, said)
+    inclines, links = inclines_said(sketch, said), links_said(sketch, said)
 
     def once(page: Sketch, leaving: frozenset[Key]) -> tuple[Step, ...]:
-        return _steps(page, said, angles, leaving)
+        return _steps(page, said, inclines, links, leaving)
 
     after, corrections = sketch, tuple[Correction, ...]()
     for _ in range(ROUNDS):
@@ -107,7 +109,8 @@ def _settled(
 def _steps(
     sketch: Sketch,
     said: Spoken,
-    angles: Mapping[str, SaidAngle],
+    inclines: Mapping[str, float],
+    links: Mapping[str, SaidAngle],
     without: frozenset[Key],
 ) -> tuple[Step, ...]:
     """All rules in their order, each on the page that the one before it left."""
@@ -118,7 +121,7 @@ def _steps(
     def mass(label: str) -> float:
         return said.mass(sketch, sketch.component(label))[0]
 
-    straight = straighten(sketch, skipped("C1"))
+    straight = straighten(sketch, inclines, skipped("C1"))
 
     @cache
     def pairs() -> list[Pair]:
@@ -128,11 +131,11 @@ def _steps(
     def touching() -> Mapping[str, frozenset[str]]:
         return resting(pairs())
 
-    tilted = tilt(straight.sketch, said, touching, skipped("C3"))
+    tilted = tilt(straight.sketch, inclines, touching, skipped("C3"))
     laid = lay(tilted.sketch, touching, skipped("C2"))
     moved = touch(laid.sketch, pairs(), mass, skipped("C2"))
-    attached = attach(moved.sketch, skipped("C4"))
-    aimed = aim(attached.sketch, angles, touching, skipped("C5"))
+    attached = attach(moved.sketch, links, touching, skipped("C4"))
+    aimed = aim(attached.sketch, links, touching, skipped("C5"))
     return straight, tilted, laid, moved, attached, aimed
 
 
