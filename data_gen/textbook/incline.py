@@ -15,7 +15,6 @@ from sketch.ink import FloatArray
 from sketch.page import Component
 from sketch.shapes import Circle, Point
 
-
 TRIANGLE = TriangleRanges(base=(290.0, 390.0), ground=(340.0, 400.0), aside=50.0)
 
 
