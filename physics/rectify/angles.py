@@ -103,6 +103,16 @@ def _measured(said: SaidAngle, shape: Shape) -> LinkAngle:
     return LinkAngle(said.angle, steep=said.angle > pi / 4 if level else y < v)
 
 
+def drawn_at(sketch: Sketch, spoken: Spoken, part: Component) -> float | None:
+    """The angle at which a link lies, radians, measured as the one that is said of it; None where none is."""
+    said = said_of(sketch, spoken, part)
+    if said is None:
+        return None
+    (x1, y1), (x2, y2) = points_of(part.shape)
+    level, rise = abs(x2 - x1), abs(y2 - y1)
+    return atan2(level, rise) if _measured(said, part.shape).steep else atan2(rise, level)
+
+
 def angles_of(sketch: Sketch, spoken: Spoken) -> dict[str, SaidAngle]:
     """What the page says of the angles of its links, by label. One within a single body cannot turn."""
     found: dict[str, SaidAngle] = {}

@@ -147,8 +147,8 @@ def no_worse(drawn: Polygon, after: Polygon, angle: float) -> Polygon:
     was, now = incline_of(drawn), incline_of(after)
     if was is None or now is None:
         return after
-    before = _at_foot(drawn, was)
-    if abs(_at_foot(after, now) - angle) <= abs(before - angle):
+    before = at_foot(drawn, was)
+    if abs(at_foot(after, now) - angle) <= abs(before - angle):
         return after
     vertices = after.vertices.copy()
     foot, corner, top = (_point(vertices[k]) for k in (now.foot, now.corner, now.top))
@@ -156,7 +156,7 @@ def no_worse(drawn: Polygon, after: Polygon, angle: float) -> Polygon:
     return Polygon(vertices)
 
 
-def _at_foot(shape: Polygon, found: Incline) -> float:
+def at_foot(shape: Polygon, found: Incline) -> float:
     """The angle between base and long side, radians."""
     foot, corner, top = (shape.vertices[k] for k in (found.foot, found.corner, found.top))
     one, other = corner - foot, top - foot
