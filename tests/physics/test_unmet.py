@@ -25,7 +25,10 @@ def told(sketch: Sketch) -> tuple[str, ...]:
 @pytest.mark.parametrize(
     ("written", "says"),
     [
-        ("30", "is 30 radians, 1719°: the angle of an incline lies between 2° and 88°; write 30° for degrees"),
+        (
+            "30",
+            "is 30 radians, 1719°: the angle of an incline lies between 2° and 88°; write 30° for degrees",
+        ),
         ("200°", "is 200°: the angle of an incline lies between 2° and 88°. The drawing keeps its own"),
         ("-pi/6", "is -0.5236 radians, -30°"),
         ("0", "lies between 2° and 88°"),
