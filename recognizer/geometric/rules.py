@@ -15,6 +15,7 @@ from math import exp, log, log1p, radians
 import numpy as np
 
 from recognizer.geometric.arrows import head
+from recognizer.geometric.bounds import Bound
 from recognizer.geometric.legs import best_legs
 from recognizer.geometric.ring import Ring, ring
 from recognizer.geometric.teeth import Teeth, teeth
@@ -22,22 +23,6 @@ from recognizer.preprocess import spaced
 from sketch.geometry import path_length, resample, turning
 from sketch.ink import FloatArray
 from sketch.page import STROKE_KINDS, StrokeKind
-
-
-@dataclass(frozen=True, slots=True)
-class Bound:
-    """A soft bound: half belief `at`, 73 % one `width` to the good side, 27 % one to the bad."""
-
-    at: float
-    width: float
-
-    def below(self, value: float) -> float:
-        """Logarithm of the belief that the value is small enough."""
-        return _log_logistic((self.at - value) / self.width)
-
-    def above(self, value: float) -> float:
-        """Logarithm of the belief that the value is large enough."""
-        return _log_logistic((value - self.at) / self.width)
 
 
 @dataclass(frozen=True, slots=True)
@@ -268,8 +253,3 @@ def rms_from_line(points: FloatArray) -> float:
     half = 0.5 * (scatter[0, 0] + scatter[1, 1])
     lesser = half - np.hypot(0.5 * (scatter[0, 0] - scatter[1, 1]), scatter[0, 1])
     return float(np.sqrt(max(lesser, 0.0)))
-
-
-def _log_logistic(value: float) -> float:
-    """log(1 / (1 + e^−value)) without overflow."""
-    return -log1p(exp(-value)) if value > 0 else value - log1p(exp(value))
