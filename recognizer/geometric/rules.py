@@ -16,11 +16,11 @@ import numpy as np
 
 from recognizer.geometric.arrows import head
 from recognizer.geometric.bounds import Bound
+from recognizer.geometric.kernels import length_of, line_rms, resampled, turning_angles
 from recognizer.geometric.legs import best_legs
 from recognizer.geometric.ring import Ring, ring
 from recognizer.geometric.teeth import Teeth, teeth
 from recognizer.preprocess import spaced
-from sketch.geometry import path_length, resample, turning
 from sketch.ink import FloatArray
 from sketch.page import STROKE_KINDS, StrokeKind
 
@@ -131,7 +131,7 @@ def evidence(path: FloatArray, rules: Rules = RULES) -> FloatArray:
 
     A tap depends on what else is on the page: it gets `rules.never` here.
     """
-    points = resample(path, rules.points)
+    points = resampled(path, rules.points)
     outline = ring(points)
     found = teeth(spaced(path))
     beliefs: dict[StrokeKind, float] = {
@@ -191,7 +191,7 @@ def best_polygon(outline: Ring, rules: Rules = RULES) -> tuple[list[int], float]
 def wrong_turning(corners: FloatArray) -> float:
     """Share of the turning at the corners (k, 2), the last equal to the first, that is in the wrong
     sense: 0 for a convex polygon."""
-    turns = turning(np.concatenate([corners, corners[1:2]]))
+    turns = turning_angles(np.concatenate([corners, corners[1:2]]))
     wrong = -(np.sign(turns.sum()) * turns).clip(max=0.0).sum()
     return float(wrong / (np.abs(turns).sum() + 1e-9))
 
@@ -199,7 +199,7 @@ def wrong_turning(corners: FloatArray) -> float:
 def turning_at(outline: Ring, corners: list[int], reach: int) -> float:
     """Share of the outline's turning that lies within `reach` points of the corners."""
     points = outline.points
-    turns = turning(np.concatenate([points[-2:-1], points]))
+    turns = turning_angles(np.concatenate([points[-2:-1], points]))
     near = (np.array(corners)[:, None] + np.arange(-reach, reach + 1)) % len(turns)
     return float(turns[np.unique(near)].sum() / (turns.sum() or 1.0))
 
@@ -227,7 +227,7 @@ def wire_evidence(points: FloatArray, found: Teeth, rules: Rules = RULES) -> flo
     deviation = min(rms_from_line(points), rms_from_line(points[hooked:-hooked]))
     size = float(np.hypot(*(points.max(axis=0) - points.min(axis=0))))
     small_teeth = rules.legs.below(found.legs) if found.height > 0.05 else 0.0
-    return rules.straight.below(deviation) + rules.retraced.below(path_length(points) / size) + small_teeth
+    return rules.straight.below(deviation) + rules.retraced.below(length_of(points) / size) + small_teeth
 
 
 def arrow_evidence(points: FloatArray, rules: Rules = RULES) -> float:
@@ -248,8 +248,4 @@ def arrow_evidence(points: FloatArray, rules: Rules = RULES) -> float:
 
 def rms_from_line(points: FloatArray) -> float:
     """Root mean square distance of points (n, 2) from their best line."""
-    centred = points - points.mean(axis=0)
-    scatter = centred.T @ centred / len(points)
-    half = 0.5 * (scatter[0, 0] + scatter[1, 1])
-    lesser = half - np.hypot(0.5 * (scatter[0, 0] - scatter[1, 1]), scatter[0, 1])
-    return float(np.sqrt(max(lesser, 0.0)))
+    return line_rms(np.ascontiguousarray(points))
