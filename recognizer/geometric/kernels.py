@@ -402,3 +402,76 @@ def head_of(
             ink += hypot(path[i, 0] - path[i - 1, 0], path[i, 1] - path[i - 1, 1]) / length
     bow = sqrt(squares / (tip + 1))
     return tip, bow, fallback, min(left, right), max(left, right), ink, sharpness[tip]
+
+
+@kernel
+def extent_of(points: FloatArray) -> float:
+    """Diagonal of the bounding box."""
+    low_x = high_x = points[0, 0]
+    low_y = high_y = points[0, 1]
+    for i in range(1, len(points)):
+        low_x, high_x = min(low_x, points[i, 0]), max(high_x, points[i, 0])
+        low_y, high_y = min(low_y, points[i, 1]), max(high_y, points[i, 1])
+    return hypot(high_x - low_x, high_y - low_y)
+
+
+@kernel
+def teeth_of(
+    path: FloatArray, chord: float, visible: float, swing: float, whole: float
+) -> tuple[float, float, int, float, float, float, float]:
+    """Axis (x, y) and measures of the swings about whichever axis shows them best: the chord, where the ends are
+    that far apart, or one of the principal axes."""
+    n = len(path)
+    mx, my = path[:, 0].mean(), path[:, 1].mean()
+    xx = xy = yy = 0.0
+    for i in range(n):
+        x, y = path[i, 0] - mx, path[i, 1] - my
+        xx += x * x
+        xy += x * y
+        yy += y * y
+    angle = 0.5 * atan2(2 * xy, xx - yy)
+    axes = np.empty((3, 2))
+    axes[1, 0], axes[1, 1] = -np.sin(angle), np.cos(angle)
+    axes[2, 0], axes[2, 1] = np.cos(angle), np.sin(angle)
+    x, y = path[-1, 0] - path[0, 0], path[-1, 1] - path[0, 1]
+    length = hypot(x, y)
+    first = 1
+    if length > chord:
+        first = 0
+        axes[0, 0], axes[0, 1] = x / length, y / length
+    best = (0.0, 0.0, 0, 0.0, 0.0, 0.0, 0.0)
+    most = -1.0
+    for k in range(first, 3):
+        legs, uneven, progress, pitch, height = swings_about(
+            path, axes[k, 0], axes[k, 1], visible, swing, whole
+        )
+        merit = legs * progress / (1.0 + uneven)
+        if merit > most:
+            most = merit
+            best = (axes[k, 0], axes[k, 1], legs, uneven, progress, pitch, height)
+    return best
+
+
+@kernel
+def turning_shares(points: FloatArray, corners: FloatArray, reach: int) -> tuple[float, float]:
+    """Of a closed outline (its last point equal to its first) and of the polygon through the points that `corners`
+    numbers, first repeated as last: the share of the polygon's turning that is in the wrong sense, and that of
+    the outline's turning within `reach` points of the corners."""
+    count = len(points) - 1
+    sides = len(corners) - 1
+    around = np.empty((sides + 2, 2))
+    for k in range(sides + 2):
+        around[k] = points[int(corners[k if k <= sides else 1])]
+    turns = turning_angles(around)
+    sense = np.sign(turns.sum())
+    wrong = 0.0
+    for turn in turns:
+        wrong += max(-sense * turn, 0.0)
+    bends = turning_angles(np.concatenate((points[-2:-1], points)))
+    near = np.zeros(count, dtype=np.bool_)
+    for corner in corners:
+        for step in range(-reach, reach + 1):
+            near[(int(corner) + step) % count] = True
+    within = bends[near].sum()
+    total = bends.sum()
+    return wrong / (np.abs(turns).sum() + 1e-9), within / (total if total != 0 else 1.0)

@@ -6,7 +6,7 @@ Frame: a path whose bounding box has a diagonal of 1 (lengths are fractions of t
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi, sqrt
+from math import hypot, pi, sqrt
 
 import numpy as np
 
@@ -66,7 +66,7 @@ def ring(path: FloatArray, rule: RingRule = RING) -> Ring | None:
     enclosed, or the ends stay apart."""
     path = np.ascontiguousarray(path)
     first, last = closing_points(path, rule)
-    gap = float(np.hypot(*(path[first] - path[last])))
+    gap = hypot(*(path[first] - path[last]).tolist())
     if gap > rule.open:
         return None
     encloses, points, area, perimeter, roundness, aspect, wrong_way, crosses = ring_of(

@@ -7,11 +7,10 @@ and moves on. Frame: equally spaced points of a path whose bounding box has a di
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, cos, hypot, sin
 
 import numpy as np
 
-from recognizer.geometric.kernels import swings_about, turning_points
+from recognizer.geometric.kernels import teeth_of, turning_points
 from sketch.ink import FloatArray
 
 
@@ -51,28 +50,12 @@ class Teeth:
 def teeth(path: FloatArray, rule: TeethRule = TEETH) -> Teeth:
     """The swings of a path about the axis that shows them best: its chord or one of its principal
     axes."""
-    even = np.ascontiguousarray(path)
-    return max((_about(even, axis, rule) for axis in _axes(even)), key=_merit)
+    x, y, legs, uneven, progress, pitch, height = teeth_of(
+        np.ascontiguousarray(path), rule.chord, rule.visible, rule.swing, rule.whole
+    )
+    return Teeth((x, y), legs, uneven, progress, pitch, height)
 
 
 def swings(across: FloatArray, least: float) -> list[int]:
     """Indices of the ends and the turning points of a signal that moves by `least` between them."""
     return list(turning_points(np.ascontiguousarray(across), least))
-
-
-def _axes(path: FloatArray) -> list[tuple[float, float]]:
-    centred = path - path.mean(axis=0)
-    (xx, xy), (_, yy) = (centred.T @ centred).tolist()
-    angle = 0.5 * atan2(2 * xy, xx - yy)
-    axes = [(-sin(angle), cos(angle)), (cos(angle), sin(angle))]
-    x, y = (path[-1] - path[0]).tolist()
-    length = hypot(x, y)
-    return [(x / length, y / length), *axes] if length > TEETH.chord else axes
-
-
-def _merit(found: Teeth) -> float:
-    return found.legs * found.progress / (1.0 + found.uneven)
-
-
-def _about(path: FloatArray, axis: tuple[float, float], rule: TeethRule) -> Teeth:
-    return Teeth(axis, *swings_about(path, *axis, rule.visible, rule.swing, rule.whole))
