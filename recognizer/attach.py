@@ -40,7 +40,9 @@ class Solids:
     def __init__(self, shapes: Sequence[Solid], drawn: Sequence[Sequence[Stroke]] = ()) -> None:
         """drawn: the strokes of each solid, in step; a link is drawn to the ink as well as to the shape."""
         self.shapes = tuple(shapes)
-        self.ink = [shapely.union_all([_line(stroke.points) for stroke in strokes]) for strokes in drawn]
+        self.ink = [
+            shapely.GeometryCollection([_line(stroke.points) for stroke in strokes]) for strokes in drawn
+        ]
         self.sizes = np.sqrt([solid_area(shape) for shape in self.shapes])
         reach = max(ATTACH.tap, ATTACH.of_solid) * self.sizes
         boxes = [_box(shape) for shape in self.shapes]
@@ -123,4 +125,4 @@ def _box(shape: Solid) -> FloatArray:
 
 
 def _line(points: FloatArray) -> shapely.LineString | shapely.Point:
-    return shapely.LineString(points) if len(points) > 1 else shapely.Point(points[0])
+    return shapely.LineString(points) if np.ptp(points, axis=0).any() else shapely.Point(points[0])

@@ -23,6 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import combinations
 from math import atan2, cos, hypot, pi, radians, sin
 
@@ -154,6 +155,14 @@ def no_worse(drawn: Polygon, after: Polygon, angle: float) -> Polygon:
     foot, corner, top = (_point(vertices[k]) for k in (now.foot, now.corner, now.top))
     vertices[now.top] = raised(foot, corner, top, before)
     return Polygon(vertices)
+
+
+@lru_cache(maxsize=256)  # an edited formula changes no shape
+def inclined(shape: Polygon) -> float | None:
+    """The angle at the foot of the triangle that a polygon is, radians; None for what is no incline."""
+    triangle = triangle_in(shape)
+    found = incline_of(triangle)
+    return None if found is None else at_foot(triangle, found)
 
 
 def at_foot(shape: Polygon, found: Incline) -> float:

@@ -117,6 +117,8 @@ def straighten(sketch: Sketch, angles: Mapping[str, float], skipped: Container[s
 def _straight(drawn: list[Point]) -> list[Point]:
     """The polygon's vertices with all that is meant made so, until nothing more is found; the same list where
     nothing is to be done, or where it has no end within reason."""
+    if all(x == 0 or y == 0 for x, y in _sides(drawn)):
+        return drawn  # nothing leans
     result = drawn
     for _ in range(RULE.rounds):
         after = _once(result)

@@ -12,7 +12,7 @@ from physics.formula.names import number_said
 from physics.parts.given import Spoken
 from physics.rectify.angles import drawn_at
 from physics.rectify.incline import RULE as INCLINE
-from physics.rectify.incline import at_foot, incline_of, triangle_in
+from physics.rectify.incline import inclined
 from sketch.page import Component, Sketch
 from sketch.shapes import Polygon, Spring, Wire
 
@@ -24,10 +24,10 @@ def unmet(sketch: Sketch, spoken: Spoken) -> tuple[str, ...]:
     """A sentence for each angle that is said of an incline, a spring or a wire and does not hold."""
     found: list[str] = []
     for part in sketch.components:
-        said = spoken.of(part, "angle") if part.label in spoken.own else None
-        angle = None if said is None else number_said(sketch, spoken.meanings, said)
-        limits = _limits(part)
-        if said is None or angle is None or limits is None:
+        said = spoken.of(part, "angle")
+        limits = None if said is None else _limits(part)
+        angle = None if said is None or limits is None else number_said(sketch, spoken.meanings, said)
+        if said is None or limits is None or angle is None:
             continue
         low, high = limits
         if not low <= angle <= high:
@@ -53,7 +53,7 @@ def _limits(part: Component) -> tuple[float, float] | None:
     match part.shape:
         case Polygon():
             flattest = INCLINE.flattest
-            return None if incline_of(triangle_in(part.shape)) is None else (flattest, pi / 2 - flattest)
+            return None if inclined(part.shape) is None else (flattest, pi / 2 - flattest)
         case Spring() | Wire():
             one, other = part.ends
             return None if one is not None and one == other else (0.0, pi / 2)
@@ -64,7 +64,5 @@ def _limits(part: Component) -> tuple[float, float] | None:
 def _drawn(sketch: Sketch, spoken: Spoken, part: Component) -> float | None:
     """The angle that a component has, as it is measured there, radians."""
     if isinstance(part.shape, Polygon):
-        shape = triangle_in(part.shape)
-        found = incline_of(shape)
-        return None if found is None else at_foot(shape, found)
+        return inclined(part.shape)
     return drawn_at(sketch, spoken, part)
