@@ -11,13 +11,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from math import hypot, radians
+from math import radians
 
 import numpy as np
 import shapely
 
 from recognizer.geometric.bounds import Bound
 from recognizer.geometric.cusps import bends
+from recognizer.geometric.kernels import head_shape
 from recognizer.group import boxes_of
 from sketch.geometry import diagonal, path_length, resample
 from sketch.ink import FloatArray, Ink
@@ -153,64 +154,31 @@ def _shafts(stroke: int, points: FloatArray, rule: HeadRule) -> list[_Shaft]:
 def head_evidence(shaft: FloatArray, head: Sequence[FloatArray], rule: HeadRule = HEADS) -> float:
     """Logarithm of the belief that the strokes of `head`, (n, 2) each, are the head of an arrow whose
     shaft, (m, 2), ends there."""
-    ink = np.concatenate(head)
-    size = diagonal(ink)
-    end = shaft[-1]
-    away = np.hypot(*(shaft - end).T)
-    before = np.flatnonzero(away >= min(rule.aim * size, 0.5 * float(away.max())))
-    if len(before) == 0 or size == 0:
-        return -np.inf
-    aim = end - shaft[before[-1]]
-    length = hypot(*aim)
-    if length == 0:
-        return -np.inf
-    forward = aim / length
-    seen = (ink - end) @ np.array([[forward[0], -forward[1]], [forward[1], forward[0]]])
-    along, across = seen[:, 0], seen[:, 1]
-    tip, left, right = seen[int(np.argmax(along))], seen[int(np.argmax(across))], seen[int(np.argmin(across))]
-    sides = sorted((float(left[1] - tip[1]), float(tip[1] - right[1])))
-    if sides[0] <= 0:
-        return -np.inf
-    barbs = [float(hypot(*(barb - tip))) for barb in (left, right)]
-    falls = [float(tip[0] - barb[0]) / abs(float(barb[1] - tip[1])) for barb in (left, right)]
-    longest = max(barbs)
-    reach = max(float(tip[0] - left[0]), float(tip[0] - right[0]))
-    if reach <= 0:
-        return -np.inf
-    strays = np.min(
-        [_from_segment(seen, tip, left), _from_segment(seen, tip, right), _from_segment(seen, left, right)],
-        axis=0,
+    ink = head[0] if len(head) == 1 else np.concatenate(head)
+    there, even, fall, falls, central, ahead, vee, gap, barbs, longer, tip = head_shape(
+        np.ascontiguousarray(shaft), np.ascontiguousarray(ink), rule.aim
     )
+    if not there:
+        return -np.inf
     return (
-        rule.even.above(sides[0] / sides[1])
-        + rule.back.above(min(falls))
-        + rule.slim.below(0.5 * sum(falls))
-        + rule.central.below(2 * abs(float(tip[1])) / sum(sides))
-        + rule.ahead.below(float(tip[0]) / reach)
-        + rule.through.below(-float(tip[0]) / reach)
-        + rule.vee.below(float(np.sqrt((strays**2).mean())) / size)
-        + rule.drawn.below(max(_open(seen, 0.5 * (tip + barb)) for barb in (left, right)) / size)
-        + rule.ink.below(sum(path_length(part) for part in head) / sum(barbs))
-        + rule.shaft.above(path_length(shaft) / longest)
-        + (_joint(head, end + forward * tip[0], rule) if len(head) > 1 else 0.0)
+        rule.even.above(even)
+        + rule.back.above(fall)
+        + rule.slim.below(falls)
+        + rule.central.below(central)
+        + rule.ahead.below(ahead)
+        + rule.through.below(-ahead)
+        + rule.vee.below(vee)
+        + rule.drawn.below(gap)
+        + rule.ink.below(sum(path_length(part) for part in head) / barbs)
+        + rule.shaft.above(path_length(shaft) / longer)
+        + (_joint(head, tip, rule) if len(head) > 1 else 0.0)
     )
-
-
-def _open(ink: FloatArray, spot: FloatArray) -> float:
-    return float(np.hypot(*(ink - spot).T).min())
 
 
 def _joint(barbs: Sequence[FloatArray], tip: FloatArray, rule: HeadRule) -> float:
     """Belief that each barb begins or ends at the tip."""
     gaps = [float(np.hypot(*(barb[[0, -1]] - tip).T).min()) / max(diagonal(barb), 1e-9) for barb in barbs]
     return rule.joined.below(max(gaps))
-
-
-def _from_segment(points: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
-    """Distance of each point from the segment, (n,)."""
-    along = end - start
-    share = np.clip((points - start) @ along / max(float(along @ along), 1e-12), 0.0, 1.0)
-    return np.hypot(*(points - start - share[:, None] * along).T)
 
 
 def _apart(found: list[PiecedArrow]) -> list[PiecedArrow]:

@@ -16,6 +16,7 @@ import numpy as np
 
 from recognizer.geometric.arrows import head
 from recognizer.geometric.bounds import Bound
+from recognizer.geometric.heads import head_evidence
 from recognizer.geometric.kernels import extent_of, length_of, line_rms, resampled, turning_shares
 from recognizer.geometric.legs import best_legs
 from recognizer.geometric.ring import Ring, ring
@@ -40,10 +41,10 @@ class Rules:
     rounder: Bound = Bound(0.2, 0.25)
     """Logarithm of (distance from the ellipse / distance from the polygon). A circle drawn with 3 %
     of wobble has −0.8, a square drawn with 2 % +1.4."""
-    round: Bound = Bound(0.13, 0.02)
+    round: Bound = Bound(0.115, 0.015)
     """Spread of a circle's radii. A careful square has 0.11 with no wobble at all, but that is for
     `rounder` to see; beyond it is neither."""
-    lobed: Bound = Bound(0.1, 0.015)
+    lobed: Bound = Bound(0.085, 0.012)
     """The same for a lasso: thrown about things, it follows nothing."""
     thin: Bound = Bound(0.25, 0.04)
     """Smaller over larger axis of a circle. An ellipse of 3:1 was meant as a circle seen at an
@@ -61,13 +62,15 @@ class Rules:
     splinter: float = 1.35
     hand: float = 0.005
     """Distance, rms, that a careful hand wavers by: no side is earned by following it."""
-    polygonal: Bound = Bound(0.025, 0.005)
-    """Distance from the best polygon, rms. Bowed sides and rounded corners have 0.01; a circle has
-    0.031 from its best square."""
-    cornered: Bound = Bound(0.85, 0.03)
-    """Share of an outline's turning that lies at its polygon's corners. A polygon turns there and nowhere
-    else; a circle turns everywhere, 0.63 of it within reach of the corners of its best hexagon, and one
-    begun with a straight stroke 0.8."""
+    polygonal: Bound = Bound(0.014, 0.0015)
+    """Distance from the best polygon, rms. Bowed sides and rounded corners have 0.01; a circle has 0.017 from
+    its best hexagon, 0.031 from its best square."""
+    curved: Bound = Bound(0.012, 0.0015)
+    """The same of a lasso: a loop that no polygon follows."""
+    cornered: Bound = Bound(0.74, 0.05)
+    """Share of an outline's turning that lies at its polygon's corners, 0 where it turns evenly all the way
+    round and 1 where it turns there only. A polygon with rounded corners has 0.9 and more, a circle 0.3 at
+    the corners of its best hexagon, and one begun with a straight stroke 0.6."""
     corner_reach: int = 2
     """Points of the outline on either side of a corner that are its rounding: a tenth of a side of a
     square."""
@@ -116,6 +119,8 @@ class Rules:
     """The turn into the head: barbs come back at more than a right angle."""
     head_ink: Bound = Bound(2.6, 0.25)
     """Length of the head's path in shafts: four strokes of half a shaft, at most."""
+    by_itself: float = log(0.7)
+    """Added to the belief in a head that is judged by itself: its shaft may bend, and letters have bent ones."""
     otherwise: float = log(0.2)
     """Mathematics is what answers to nothing else: it wins where every other kind is less believed
     than this. One soft bound half missed (0.5) and another at 73 % still make a shape."""
@@ -171,14 +176,15 @@ def outline_evidence(outline: Ring, rules: Rules = RULES) -> dict[StrokeKind, fl
         rules.rounder.below(ratio) + rules.round.below(outline.roundness) + rules.thin.above(outline.aspect)
     )
     wrong, at_corners = turning_shares(outline.points, np.array(corners, dtype=float), rules.corner_reach)
+    even = (2 * rules.corner_reach + 1) * sides / (len(outline.points) - 1)
     polygon = (
         rules.rounder.above(ratio)
         + rules.polygonal.below(distance)
         + rules.convex.below(wrong)
-        + rules.cornered.above(at_corners)
+        + rules.cornered.above((at_corners - even) / (1 - even))
         + rules.sliver.above(outline.aspect)
     )
-    loop = rules.lobed.above(outline.roundness) + rules.polygonal.above(distance) - rules.rounder.width
+    loop = rules.lobed.above(outline.roundness) + rules.curved.above(distance) - rules.rounder.width
     return {"circle": closed + circle, "polygon": closed + polygon, "lasso": closed + loop}
 
 
@@ -225,11 +231,11 @@ def wire_evidence(points: FloatArray, found: Teeth, rules: Rules = RULES) -> flo
 
 
 def arrow_evidence(points: FloatArray, rules: Rules = RULES) -> float:
-    """Belief in an arrow drawn from its tail."""
+    """Belief in an arrow drawn from its tail: as the head lies to the whole shaft, or as it looks by itself."""
     found = head(points)
     if found is None:
         return rules.never
-    return (
+    by_shaft = (
         rules.bow.below(found.bow)
         + rules.barb.above(found.narrower)
         + rules.spread.below(found.wider)
@@ -238,6 +244,8 @@ def arrow_evidence(points: FloatArray, rules: Rules = RULES) -> float:
         + rules.barb_turn.above(found.sharpest)
         + rules.head_ink.below(found.ink)
     )
+    by_itself = head_evidence(points[: found.tip + 1], [points[found.tip :]]) + rules.by_itself
+    return max(by_shaft, by_itself)
 
 
 def rms_from_line(points: FloatArray) -> float:
