@@ -52,6 +52,8 @@ def confusion(name: str, pages: int, seed: int) -> dict[str, Counter[str]]:
             gesture.stroke: gesture.kind for gesture in interpret(item.ink, rival, notes_of(truth)).gestures
         }
         for index, kind in enumerate(true):
+            if item.kind == "scribble" and kind == "tap":
+                continue  # it may have been rubbed out with what it was on
             row = kind if kind in GESTURE_KINDS else "drawing"
             table[row][found.get(index, "drawing")] += 1
     return table

@@ -317,7 +317,7 @@ def ring_of(
     perimeter = length_of(closed)
     area, cx, cy, xx, xy, yy = moments_of(closed[:-1])
     nothing = (False, closed, 0.0, perimeter, 0.0, 0.0, 0.0, 0)
-    if not abs(area) >= 1e-6 * perimeter**2:
+    if perimeter == 0 or not abs(area) >= 1e-6 * perimeter**2:
         return nothing
     half, rest = 0.5 * (xx + yy), hypot(0.5 * (xx - yy), xy)
     small, large = half - rest, half + rest
