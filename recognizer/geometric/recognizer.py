@@ -84,7 +84,9 @@ def together(ink: Ink, alone: Sequence[FloatArray], drawn: Sequence[int]) -> lis
         for index in arrow.strokes:
             rows[index] = made("arrow", arrow.belief, rows[index])
             best[index] = "arrow"
-    for index in signs(ink, [i for i in open_ended if best[i] == "wire"], list(ends)):
+    free = [i for i in open_ended if i not in ends]
+    straight, letters = ([i for i in free if best[i] == kind] for kind in ("wire", "math"))
+    for index in signs(ink, straight, letters):
         rows[index] = made("math", CONFIDENCE.sign, rows[index])
     return rows
 

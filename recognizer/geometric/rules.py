@@ -49,7 +49,7 @@ class Rules:
     thin: Bound = Bound(0.25, 0.04)
     """Smaller over larger axis of a circle. An ellipse of 3:1 was meant as a circle seen at an
     angle, one of 5:1 is a slip of a line."""
-    sliver: Bound = Bound(0.06, 0.015)
+    sliver: Bound = Bound(0.035, 0.008)
     """The same for a polygon: a plank of 10:1 is one, a line drawn there and back is not."""
     side_costs: tuple[float, ...] = (1.0, 1.15, 1.4, 1.8)
     """Factor on the distance from the best triangle, quadrilateral, pentagon, hexagon: more sides
@@ -119,7 +119,7 @@ class Rules:
     """The turn into the head: barbs come back at more than a right angle."""
     head_ink: Bound = Bound(2.6, 0.25)
     """Length of the head's path in shafts: four strokes of half a shaft, at most."""
-    by_itself: float = log(0.7)
+    by_itself: float = log(0.55)
     """Added to the belief in a head that is judged by itself: its shaft may bend, and letters have bent ones."""
     otherwise: float = log(0.2)
     """Mathematics is what answers to nothing else: it wins where every other kind is less believed

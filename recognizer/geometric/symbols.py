@@ -1,7 +1,7 @@
-"""Straight strokes that make a sign together: a +, a T, an H, an asterisk.
+"""Straight strokes that make a sign together with others: a +, a T, an N, the bar of a 7.
 
-A wire runs between shapes (row R3): where a straight stroke meets another within its length, and neither
-ends at a shape or is a side of one, they are strokes of one sign. Frame: page units, y down.
+A wire runs between shapes (row R3): where a straight stroke meets another open stroke, and neither ends at
+a shape, they are strokes of one sign. Frame: page units, y down.
 """
 
 from __future__ import annotations
@@ -23,8 +23,6 @@ class SignRule:
     near: float = 0.08
     """Gap between a stroke and one that ends at it, over the shorter's size: the bar of a T is missed by
     less."""
-    inner: float = 0.15
-    """Share of a stroke's length at either end that is its end: sides of a box overshoot by as much."""
     alike: float = 4.0
     """Size of one stroke over the other's, at most: what is written together is written alike."""
     shape: float = 0.15
@@ -34,21 +32,21 @@ class SignRule:
 SIGNS = SignRule()
 
 
-def signs(ink: Ink, straight: Sequence[int], touching: Sequence[int], rule: SignRule = SIGNS) -> set[int]:
-    """Those of the straight strokes that are strokes of signs. touching: strokes with an end at a shape."""
-    free = [index for index in straight if index not in set(touching)]
-    if len(free) < 2:
+def signs(ink: Ink, straight: Sequence[int], letters: Sequence[int], rule: SignRule = SIGNS) -> set[int]:
+    """Those of the straight strokes that meet one another, or one of the letters' strokes. None of them is to
+    end at a shape."""
+    strokes = [*straight, *letters]
+    if len(straight) == 0 or len(strokes) < 2:
         return set()
-    sizes = np.array([diagonal(ink[index].points) for index in free])
-    lines = np.array([shapely.LineString(ink[index].points[[0, -1]]) for index in free])
-    one, other = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=rule.near * sizes)
+    sizes = np.array([diagonal(ink[index].points) for index in strokes])
+    lines = np.array([shapely.LineString(np.repeat(ink[i].points, 2, axis=0)) for i in strokes])
+    count = len(straight)
+    one, other = shapely.STRtree(lines).query(
+        lines[:count], predicate="dwithin", distance=rule.near * sizes[:count]
+    )
     larger, smaller = np.maximum(sizes[one], sizes[other]), np.minimum(sizes[one], sizes[other])
-    alike = (one != other) & (larger <= rule.alike * smaller)
-    one, other = one[alike], other[alike]
-    meeting = shapely.get_point(shapely.shortest_line(lines[one], lines[other]), 1)
-    place = shapely.line_locate_point(lines[other], meeting, normalized=True)
-    within = (place > rule.inner) & (place < 1 - rule.inner)
-    return {free[position] for position in np.union1d(one[within], other[within]).tolist()}
+    met = one[(one != other) & (larger <= rule.alike * smaller)]
+    return {straight[position] for position in np.unique(met).tolist()}
 
 
 def attached(
