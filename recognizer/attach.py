@@ -54,7 +54,8 @@ class Solids:
 
     def near(self, point: Point, reach: float = 0.0) -> list[tuple[float, int]]:
         """(signed distance, index) of the solids that may lie within reach, nearest first."""
-        found = self._tree.query(shapely.Point(point).buffer(reach) if reach > 0 else shapely.Point(point))
+        x, y = point
+        found = self._tree.query(shapely.box(x - reach, y - reach, x + reach, y + reach))
         return sorted((signed_distance(self.shapes[index], point), index) for index in found.tolist())
 
     def holds(self, point: FloatArray) -> bool:

@@ -18,9 +18,9 @@ import shapely
 
 from recognizer.geometric.bounds import Bound
 from recognizer.geometric.cusps import bends
-from recognizer.geometric.kernels import head_shape
+from recognizer.geometric.kernels import extent_of, head_shape, length_of, resampled
 from recognizer.group import boxes_of
-from sketch.geometry import diagonal, path_length, resample
+from sketch.geometry import diagonal, distinct
 from sketch.ink import FloatArray, Ink
 
 
@@ -96,16 +96,24 @@ def pieced_arrows(
     strokes that may be a closed head, and no shaft."""
     if len(strokes) == 0 or len(strokes) + len(closed) < 2:
         return []
-    shafts = [shaft for index in strokes for shaft in _shafts(index, ink[index].points, rule)]
-    long = [index for index in (*strokes, *closed) if diagonal(ink[index].points) > 0]
-    if not shafts or not long:
-        return []
+    long = [*strokes, *closed]
     boxes = boxes_of(ink, long)
     sizes = np.hypot(boxes[:, 2] - boxes[:, 0], boxes[:, 3] - boxes[:, 1])
+    moved = sizes > 0
+    shafts = [
+        shaft
+        for index, whole in zip(strokes, moved.tolist(), strict=False)
+        if whole
+        for shaft in _shafts(index, ink[index].points, rule)
+    ]
+    long = [index for index, whole in zip(long, moved.tolist(), strict=True) if whole]
+    boxes, sizes = boxes[moved], sizes[moved]
+    if not shafts:
+        return []
     out = rule.near * sizes[:, None] * np.array([-1.0, -1.0, 1.0, 1.0])
     tree = shapely.STRtree(shapely.box(*(boxes + out).T))
     of_end, near = tree.query(shapely.points([shaft.path[-1] for shaft in shafts]))
-    lengths = np.array([diagonal(shaft.path) for shaft in shafts])
+    lengths = np.array([extent_of(shaft.path) for shaft in shafts])
     fits = sizes[near] <= rule.larger * lengths[of_end]
     candidates: dict[int, list[int]] = {}
     for shaft, head in zip(of_end[fits].tolist(), near[fits].tolist(), strict=True):
@@ -118,7 +126,7 @@ def pieced_arrows(
         latest = sorted(heads, key=lambda head: abs(head - shaft.stroke))[: rule.candidates]
         for head in latest:
             if head not in lines:
-                lines[head] = resample(ink[head].points, rule.points)
+                lines[head] = resampled(distinct(ink[head].points), rule.points)
         own = [] if shaft.barb is None else [shaft.barb]
         several = combinations(latest, 2) if shaft.barb is None else ()
         for chosen in (*((head,) for head in latest), *several):
@@ -138,13 +146,12 @@ class _Shaft:
 
 
 def _shafts(stroke: int, points: FloatArray, rule: HeadRule) -> list[_Shaft]:
-    """The stroke as a shaft either way round, and where it turns back sharply, up to there; a dot as none."""
-    if diagonal(points) == 0:
-        return []
-    found = [_Shaft(stroke, points), _Shaft(stroke, points[::-1])]
-    path = resample(points, 2 * rule.points)
-    for way in (path, path[::-1]):
-        sharp = np.abs(bends(way))
+    """The stroke as a shaft either way round, and where it turns back sharply, up to there."""
+    path = resampled(distinct(points), 2 * rule.points)
+    ways = (path, np.ascontiguousarray(path[::-1]))
+    found = [_Shaft(stroke, way) for way in ways]
+    sharpness = np.abs(bends(path))
+    for way, sharp in zip(ways, (sharpness, sharpness[::-1]), strict=True):
         tip = len(way) // 2 + int(np.argmax(sharp[len(way) // 2 :]))
         if sharp[tip] > rule.barb_turn and len(way) - tip < rule.barb * tip:
             found.append(_Shaft(stroke, way[: tip + 1], way[tip:]))
@@ -169,8 +176,8 @@ def head_evidence(shaft: FloatArray, head: Sequence[FloatArray], rule: HeadRule 
         + rule.through.below(-ahead)
         + rule.vee.below(vee)
         + rule.drawn.below(gap)
-        + rule.ink.below(sum(path_length(part) for part in head) / barbs)
-        + rule.shaft.above(path_length(shaft) / longer)
+        + rule.ink.below(sum(length_of(np.ascontiguousarray(part)) for part in head) / barbs)
+        + rule.shaft.above(length_of(np.ascontiguousarray(shaft)) / longer)
         + (_joint(head, tip, rule) if len(head) > 1 else 0.0)
     )
 
