@@ -20,12 +20,10 @@ from hashlib import sha256
 from importlib.metadata import version
 from itertools import islice
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from data_gen.strokes import stream
-from evaluation.strangers import strangers
-from recognizer.calibrated import Calibrated, calibrate
 from recognizer.claims import Recognizer
 from recognizer.published import PUBLISHED
 from recognizer.roster import ROSTER, recognizer
@@ -33,9 +31,18 @@ from recognizer.samples import Sample
 from sketch.ink import Ink
 from sketch.page import StrokeKind
 
+if TYPE_CHECKING:
+    from recognizer.calibrated import Calibrated
+
 KINDS: tuple[StrokeKind, ...] = ("circle", "polygon", "spring", "wire", "arrow", "scribble", "math")
 """What the published rivals are taught: all that a drawing can be by its own shape. A lasso is a circle but for what it
 encloses, and a tap is a dot, which its size on the page tells."""
+
+
+OWN = "@"
+"""In the name of a rival that was taught from somebody's own samples."""
+KEPT_OWN = 60
+"""So many of them are kept, the latest."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,11 +71,27 @@ def rival(name: str) -> Recognizer:
     ValueError as `recognizer.roster.recognizer` for a name that nobody bears."""
     if name in PUBLISHED:
         return _kept(name)
+    if OWN in name:
+        return _own(name)
     if name not in ROSTER and ":" not in name:
         raise ValueError(
             f"no recognizer is called {name!r}; known are {', '.join(known())}, or module:Class for one of your own"
         )
     return recognizer(name)
+
+
+def taught_by_samples(name: str, samples: Sequence[Sample], seed: int = 0) -> str:
+    """Teaches the published rival of that name from these samples and keeps it under a name of its own, which is
+    returned and which `rival` knows in every process. Raises ValueError as `taught`, OSError where it cannot be kept."""
+    told = pickle.dumps((name, seed, [(sample.kind, sample.ink.strokes) for sample in samples], digest()))
+    own = f"{name}{OWN}{sha256(told).hexdigest()[:8]}"
+    place = _place(own)
+    if not place.is_file():
+        _write(place, taught(name, samples, seed))
+        mine = sorted(cache_folder().glob(f"*{OWN}*.pickle"), key=lambda path: path.stat().st_mtime)
+        for oldest in mine[:-KEPT_OWN]:
+            oldest.unlink(missing_ok=True)
+    return own
 
 
 def taught(name: str, samples: Sequence[Sample], seed: int = 0) -> Calibrated:
@@ -83,6 +106,8 @@ def taught(name: str, samples: Sequence[Sample], seed: int = 0) -> Calibrated:
         raise ValueError(
             f"none of the {len(samples)} samples is of a kind that can be taught: {', '.join(KINDS)}"
         )
+    from recognizer.calibrated import Calibrated, calibrate
+
     scorer = PUBLISHED[name].trainer()(usable, np.random.default_rng(seed))
     return Calibrated(name, scorer, calibrate(scorer, _held_out(), _strangers()))
 
@@ -90,6 +115,8 @@ def taught(name: str, samples: Sequence[Sample], seed: int = 0) -> Calibrated:
 def generated_samples(per_kind: int, seed: int) -> list[Sample]:
     """`per_kind` generated samples of each of `KINDS`, each by a writer of its own. The first of a larger
     number are those of a smaller."""
+    from data_gen.strokes import stream
+
     found: list[Sample] = []
     for kind in KINDS:
         mix: Mapping[StrokeKind, float] = {kind: 1.0}
@@ -106,41 +133,61 @@ def _held_out() -> tuple[Sample, ...]:
 
 @cache
 def _strangers() -> tuple[Ink, ...]:
+    from evaluation.strangers import strangers
+
     return tuple(strangers(RULE.strangers, RULE.strangers_seed))
 
 
 @cache
 def _kept(name: str) -> Calibrated:
     """What is kept of the rival, or the rival taught anew and kept."""
-    folder = cache_folder()
-    place = folder / f"{name}-{digest()}.pickle"
-    try:
-        found = pickle.loads(place.read_bytes())
-        if isinstance(found, Calibrated):
-            return found
-    except Exception:  # not there, cut short, or of another version: taught anew in every case
-        pass
-    logging.getLogger("inklined").warning(
-        "Teaching %s from generated ink: once, for some seconds. Later runs start at once.", name
-    )
+    place = _place(f"{name}-{digest()}")
+    found = _read(place)
+    if found is not None:
+        return found
+    log = logging.getLogger("inklined")
+    log.warning("Teaching %s from generated ink: once, for some seconds. Later runs start at once.", name)
     rival = taught(name, generated_samples(PUBLISHED[name].samples, RULE.seed), RULE.seed)
-    _keep(place, rival)
-    return rival
-
-
-def _keep(place: Path, rival: Calibrated) -> None:
-    """Writes the rival whole or not at all, in place of what was kept of it before."""
     try:
-        place.parent.mkdir(parents=True, exist_ok=True)
-        handle, draft = tempfile.mkstemp(dir=place.parent)
-        with os.fdopen(handle, "wb") as file:
-            pickle.dump(rival, file)
-        Path(draft).replace(place)
-        for stale in place.parent.glob(f"{rival.name}-{'[0-9a-f]' * 12}.pickle"):
+        _write(place, rival)
+        for stale in place.parent.glob(f"{name}-{'[0-9a-f]' * 12}.pickle"):
             if stale != place:
                 stale.unlink(missing_ok=True)
     except OSError as error:
-        logging.getLogger("inklined").warning("%s could not be kept: %s", rival.name, error)
+        log.warning("%s could not be kept: %s", name, error)
+    return rival
+
+
+@cache
+def _own(name: str) -> Calibrated:
+    found = _read(_place(name))
+    if found is None:
+        raise ValueError(f"{name!r} is not kept any more; teach it again with --train")
+    return found
+
+
+def _place(name: str) -> Path:
+    return cache_folder() / f"{name}.pickle"
+
+
+def _read(place: Path) -> Calibrated | None:
+    """What is kept there; None when it is not there, cut short, or of another version of a library."""
+    from recognizer.calibrated import Calibrated
+
+    try:
+        found = pickle.loads(place.read_bytes())
+    except Exception:
+        return None
+    return found if isinstance(found, Calibrated) else None
+
+
+def _write(place: Path, rival: Calibrated) -> None:
+    """Writes the rival whole or not at all."""
+    place.parent.mkdir(parents=True, exist_ok=True)
+    handle, draft = tempfile.mkstemp(dir=place.parent)
+    with os.fdopen(handle, "wb") as file:
+        pickle.dump(rival, file)
+    Path(draft).replace(place)
 
 
 def cache_folder() -> Path:

@@ -1,0 +1,88 @@
+"""`hybrid`: geometry and the net heard together, each as far as it has deserved.
+
+Stacked generalization (Wolpert 1992): the evidence for kind k is net · log p_k + geometry · log q_k, p and q being what `learned`
+and `geometric` say, and a softmax makes probabilities of it. The two weights are fitted to generated ink by
+`python -m training.stack` and kept in hybrid.json. They are the same for all kinds: with weights and biases of its own for each
+kind the fit to generated ink is closer, and people's ink is read worse than by the net alone (97.4 % of five kinds, not 98.4).
+A stroke is rejected that the net rejects, unless geometry names the same kind.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy.special import softmax
+
+from recognizer.claims import Claim, Recognizer
+from recognizer.geometric.recognizer import Geometric
+from recognizer.learned.recognizer import Learned
+from sketch.ink import FloatArray, Ink
+from sketch.page import STROKE_KINDS, StrokeKind
+
+WEIGHTS = Path(__file__).parent / "hybrid.json"
+DOUBT = 1e-4
+"""The least probability that is believed of either: nobody is that sure."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stack:
+    """How much each is heard."""
+
+    net: float
+    geometry: float
+
+    def shares(self, net: FloatArray, geometry: FloatArray) -> FloatArray:
+        """Probabilities (n, 9) from those of both, (n, 9) each."""
+        heard = self.net * logged(net) + self.geometry * logged(geometry)
+        return np.asarray(softmax(heard, axis=1), dtype=np.float64)
+
+
+class StackError(ValueError):
+    """A file of weights that cannot be used."""
+
+
+def logged(scores: FloatArray) -> FloatArray:
+    """Logarithms of scores, none below that of `DOUBT`."""
+    return np.log(np.maximum(scores, DOUBT))
+
+
+def load(path: Path = WEIGHTS) -> Stack:
+    """The weights in a file that `training.stack` wrote. Raises StackError when it cannot be used."""
+    try:
+        told = json.loads(path.read_text("utf-8"))
+        return Stack(float(told["net"]), float(told["geometry"]))
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise StackError(
+            f"{path} is no file of stacking weights ({type(error).__name__}: {error}); `python -m training.stack` writes one"
+        ) from None
+
+
+class Hybrid:
+    """The two, and how much each is heard."""
+
+    name = "hybrid"
+    claims: frozenset[StrokeKind] = frozenset(STROKE_KINDS)
+
+    def __init__(self, stack: Stack | None = None) -> None:
+        self._stack = load() if stack is None else stack
+        self._net: Recognizer = Learned()
+        self._geometry: Recognizer = Geometric()
+
+    def recognize(self, ink: Ink) -> tuple[Claim, ...]:
+        """One claim a stroke."""
+        if not len(ink):
+            return ()
+        net, geometry = self._net.recognize(ink), self._geometry.recognize(ink)
+        shares = self._stack.shares(scores_of(net), scores_of(geometry))
+        return tuple(
+            Claim(row, first.rejected and first.kind != second.kind)
+            for row, first, second in zip(shares, net, geometry, strict=True)
+        )
+
+
+def scores_of(claims: tuple[Claim, ...]) -> FloatArray:
+    """The claims' scores, (n, 9)."""
+    return np.array([claim.scores for claim in claims]).reshape(-1, len(STROKE_KINDS))
