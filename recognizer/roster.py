@@ -54,12 +54,12 @@ class Ours:
 
 
 OURS: dict[str, Ours] = {
-    "paper": Ours("The published rules of a sketch-based physics tutor", "Cheema and LaViola", "rules"),
-    "geometric": Ours("Hand-made geometry, stroke by stroke and against the page", "inklined", "rules"),
+    "paper": Ours("The published rules of a sketch-based physics tutor", "Cheema and LaViola", "no ink"),
+    "geometric": Ours("Hand-made geometry, stroke by stroke and against the page", "inklined", "no ink"),
     "learned": Ours(
-        "A small net on 64 points of a stroke and its page", "inklined", "generated ink, shipped"
+        "A small net on 64 points of a stroke and its page", "inklined", "generated ink; weights are shipped"
     ),
-    "hybrid": Ours("The net and the geometry, stacked", "inklined", "generated ink, shipped"),
+    "hybrid": Ours("The net and the geometry, stacked", "inklined", "generated ink; weights are shipped"),
 }
 assert OURS.keys() == ROSTER.keys()
 

@@ -17,8 +17,9 @@ def recognizers(
     as_json: Annotated[bool, typer.Option("--json", help="As JSON, for programs.")] = False,
 ) -> None:
     """List the recognizers: their names, what they are, whose they are, and how they come to know ink."""
-    from evaluation.table import Cell, Table
-    from inklined.terminal import as_rich, out
+    from rich.markup import escape
+
+    from inklined.terminal import out
     from recognizer.published import PUBLISHED
     from recognizer.roster import OURS
 
@@ -33,6 +34,7 @@ def recognizers(
             json.dumps([dict(zip(fields, row, strict=True)) for row in rows], indent=1, ensure_ascii=False)
         )
         return
-    caption = "Names for --recognizer; your own is module:Class."
-    cells = tuple((name, *(Cell(text) for text in rest)) for name, *rest in rows)
-    out.print(as_rich(Table(caption, ("name", "what it does", "source", "learns from"), cells)))
+    out.print("Names for --recognizer; your own is module:Class.", style="dim")
+    for name, summary, source, learns in rows:
+        out.print(f"[bold]{name:14}[/bold] {escape(summary)}")
+        out.print(f"{'':14} {source}; learns from {learns}", style="dim", markup=False)
