@@ -69,8 +69,9 @@ def calibrate(
     if len(theirs):
         line = LogisticRegression(class_weight="balanced", max_iter=400)
         line.fit(np.concatenate([ours, theirs]), np.arange(len(ours) + len(theirs)) >= len(ours))
-        first, second = line.coef_[0].tolist()
-        weights = (first, second)
+        # A stranger is never told by its being familiar or sure: such a weight is chance.
+        first, second = np.maximum(line.coef_[0], 0.0).tolist()
+        weights = (first, second) if first + second > 0 else weights
     return Calibration(heat, weights, float(np.quantile(ours @ np.array(weights), rule.keep)))
 
 
@@ -100,7 +101,8 @@ class Calibrated:
         """One claim a stroke."""
         if not len(ink):
             return ()
-        tiny = dots(ink, np.array([diagonal(stroke.points) for stroke in ink]))
+        with np.errstate(over="ignore"):  # a stroke may last longer than a float holds: no dot then
+            tiny = dots(ink, np.array([diagonal(stroke.points) for stroke in ink]))
         found: list[Claim] = [claim_for("tap", RULE.dot)] * len(ink)
         drawn = np.flatnonzero(~tiny).tolist()
         claims = self.classify([Ink((ink[index],)) for index in drawn])

@@ -4,6 +4,7 @@ Stacked generalization (Wolpert 1992): the evidence for kind k is net · log p_k
 and `geometric` say, and a softmax makes probabilities of it. The two weights are fitted to generated ink by
 `python -m training.stack` and kept in hybrid.json. They are the same for all kinds: with weights and biases of its own for each
 kind the fit to generated ink is closer, and people's ink is read worse than by the net alone (97.4 % of five kinds, not 98.4).
+A lasso is told by what it encloses: where geometry finds none it says nothing of lassos, and the net is believed about them.
 A stroke is rejected that the net rejects, unless geometry names the same kind.
 """
 
@@ -23,6 +24,7 @@ from sketch.ink import FloatArray, Ink
 from sketch.page import STROKE_KINDS, StrokeKind
 
 WEIGHTS = Path(__file__).parent / "hybrid.json"
+LASSO = STROKE_KINDS.index("lasso")
 DOUBT = 1e-4
 """The least probability that is believed of either: nobody is that sure."""
 
@@ -36,8 +38,20 @@ class Stack:
 
     def shares(self, net: FloatArray, geometry: FloatArray) -> FloatArray:
         """Probabilities (n, 9) from those of both, (n, 9) each."""
-        heard = self.net * logged(net) + self.geometry * logged(geometry)
+        heard = self.net * logged(net) + self.geometry * logged(completed(geometry, net))
         return np.asarray(softmax(heard, axis=1), dtype=np.float64)
+
+
+def completed(geometry: FloatArray, net: FloatArray) -> FloatArray:
+    """What geometry says, (n, 9), with the net's share of lassos where it finds no lasso itself; rows sum to 1."""
+    others = np.arange(len(STROKE_KINDS)) != LASSO
+    found = geometry.copy()
+    silent = geometry.argmax(axis=1) != LASSO
+    rest = geometry[silent][:, others]
+    believed = net[silent, LASSO]
+    found[np.ix_(silent, others)] = rest * ((1 - believed) / rest.sum(axis=1))[:, None]
+    found[silent, LASSO] = believed
+    return found
 
 
 class StackError(ValueError):

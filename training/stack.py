@@ -26,7 +26,7 @@ from scipy.special import log_softmax, softmax
 
 from data_gen.strokes import generate
 from recognizer.geometric.recognizer import Geometric
-from recognizer.hybrid import WEIGHTS, Stack, logged, scores_of
+from recognizer.hybrid import WEIGHTS, Stack, completed, logged, scores_of
 from recognizer.learned.recognizer import Learned
 from sketch.ink import FloatArray, Ink
 from sketch.page import STROKE_KINDS, StrokeKind
@@ -61,7 +61,7 @@ class Heard:
 
 def fit(heard: Heard, rule: StackRule = RULE) -> Stack:
     """The weights that make the truth likeliest."""
-    net, geometry = logged(heard.net), logged(heard.geometry)
+    net, geometry = logged(heard.net), logged(completed(heard.geometry, heard.net))
     truth = np.eye(KINDS)[heard.kind]
 
     def loss(weights: FloatArray) -> tuple[float, FloatArray]:
