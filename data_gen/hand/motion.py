@@ -3,7 +3,7 @@
 Kinematics after the sigma-lognormal model (Plamondon 1995; O'Reilly and Plamondon 2009): a movement is the
 vector sum of strokelets, each travelling its own piece of the path with a lognormal speed, the next one
 starting before the last has ended, so that corners are rounded by overlap in time as a hand rounds them.
-Strokelets part at corners, and after half a turn and more of smooth path; within one the pen slows down where
+Strokelets part at corners, and after two turns of smooth path; within one the pen slows down where
 the path bends, by the two-thirds power law (Viviani and Flash 1995: speed as curvature to the power −1/3).
 
 Frame: page units, y down; seconds.
@@ -30,8 +30,10 @@ CORNER_TURN = 0.7
 """A path that turns by more than this within ±2 points has a corner there, radians,"""
 CONCENTRATED = 0.65
 """if at least this share of the turn within ±6 points falls there: a loop of a coil has none."""
-SMOOTH_TURN = 3.6
-"""A new strokelet begins after this much smooth turning, radians: a ring is drawn in two."""
+SMOOTH_TURN = 13.0
+"""A new strokelet begins after this much smooth turning, radians: a ring is drawn in one, two loops of a coil too."""
+LONG_TURN = 5.0
+"""A strokelet that turns by more than this takes longer in proportion, radians."""
 BEND_SPAN = 4
 """Curvature is taken over ± this many points."""
 LEAST_BEND = 1.5
@@ -70,7 +72,7 @@ def travelled(
     total_length = along[-1]
     turned = _turned_so_far(path)
     breaks, smooth = _strokelets(turned)
-    start, end = _timing(along, breaks, smooth, habits, on, key)
+    start, end = _timing(along, turned, breaks, smooth, habits, on, key)
     total = end[-1]
     rate = habits[SAMPLES] if on[RATE] else USUAL_RATE
     count = min(max(ceil(total * rate) + 1, FEWEST), MOST)
@@ -180,6 +182,7 @@ def _strokelets(turned: FloatArray) -> tuple[Indices, NDArray[np.bool_]]:
 @part
 def _timing(
     along: FloatArray,
+    turned: FloatArray,
     breaks: Indices,
     smooth: NDArray[np.bool_],
     habits: FloatArray,
@@ -197,7 +200,8 @@ def _timing(
     for k in range(count):
         length = along[breaks[k + 1]] - along[breaks[k]]
         uneven = exp(UNEVEN * normal(state)) if on[SPEED] else 1.0
-        duration = max(usual * (length / mean) ** WITHIN, SHORTEST) * uneven
+        bend = abs(turned[breaks[k + 1]] - turned[breaks[k]])
+        duration = max(usual * (length / mean) ** WITHIN, SHORTEST) * uneven * max(1.0, bend / LONG_TURN)
         if k > 0:
             shared = habits[OVERLAP] if on[ROUNDING] else 0.0
             if smooth[k]:
