@@ -18,13 +18,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from data_gen.families import arrow
 from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import track
 from scipy.optimize import minimize
 from scipy.special import log_softmax, softmax
 
-from data_gen.families import arrow
 from data_gen.pages import pages
 from data_gen.pen import draw
 from data_gen.strokes import generate
