@@ -15,6 +15,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
+from recognizer.claims import Bonds
 from sketch.geometry import diagonal
 from sketch.ink import FloatArray, Ink
 
@@ -35,6 +36,8 @@ class GroupRule:
     line_gap: float = 0.35
     """Gap between what stands above and below in one line (fractions, = and dots), in letter
     heights; lines of writing stand further apart."""
+    bond: float = 0.5
+    """Mean probability that the strokes of two sets are of one thing, from which they are: more likely than not."""
     flat: float = 0.3
     """Height over width: below it a bar, which says nothing of the letters' height."""
 
@@ -63,6 +66,44 @@ def chains(ink: Ink, strokes: Sequence[int], rule: GroupRule = GROUP) -> list[tu
             seen.update(chain)
             found.append(tuple(sorted(strokes[index] for index in chain)))
     return found
+
+
+def bound(strokes: Sequence[int], bonds: Bonds, rule: GroupRule = GROUP) -> list[tuple[int, ...]]:
+    """These strokes as things, by what a recognizer says of every two of them; every stroke is in one.
+
+    The surest pair is joined first, and two sets are joined while the mean over all pairs between them is
+    more likely than not: one doubtful bridge makes no thing of two.
+    """
+    member = {stroke: position for position, stroke in enumerate(strokes)}
+    between = np.zeros((len(strokes), len(strokes)))
+    for (first, second), score in zip(bonds.pairs.tolist(), bonds.scores.tolist(), strict=True):
+        if first in member and second in member:
+            between[member[first], member[second]] = between[member[second], member[first]] = score
+    sets = [[stroke] for stroke in strokes]
+    while len(sets) > 1:
+        counts = np.array([len(one) for one in sets])
+        mean = between / np.outer(counts, counts)
+        i, j = divmod(int(np.argmax(mean)), len(sets))
+        if mean[i, j] <= rule.bond:
+            break
+        keep, gone = min(i, j), max(i, j)
+        sets[keep] += sets.pop(gone)
+        between[keep] += between[gone]
+        between[:, keep] += between[:, gone]
+        between = np.delete(np.delete(between, gone, axis=0), gone, axis=1)
+        between[keep, keep] = 0.0
+    return [tuple(sorted(one)) for one in sets]
+
+
+def apart(strokes: Sequence[int], bonds: Bonds, rule: GroupRule = GROUP) -> bool:
+    """Whether a recognizer says that these strokes are not one thing: every two of them, on the mean."""
+    inside = set(strokes)
+    told = [
+        score
+        for (first, second), score in zip(bonds.pairs.tolist(), bonds.scores.tolist(), strict=True)
+        if first in inside and second in inside
+    ]
+    return 2 * sum(told) / (len(strokes) * (len(strokes) - 1)) < rule.bond
 
 
 def lines(ink: Ink, strokes: Sequence[int], rule: GroupRule = GROUP) -> list[tuple[int, ...]]:

@@ -1,48 +1,41 @@
-"""The net as one ONNX file: dynamic batch, temperature and softmax inside, no sidecar."""
+"""The net as one ONNX file that takes raw ink: cleaning, spacing, features, both senses, page, softmax inside."""
 
 from __future__ import annotations
 
 import warnings
 from pathlib import Path
 
-import numpy as np
 import onnx
-import onnxruntime
 import torch
-from torch import Tensor, nn
 
-from recognizer.learned.features import GLOBAL_FEATURES, PAGE_FEATURES, POINTS, SEQUENCE_CHANNELS
-from training.dataset import Corpus
-from training.nets import StrokeNet
+from training.reader import RawReader
 
-
-class Calibrated(nn.Module):
-    """The net with its temperature: logits / T. The recognizer averages both directions, then applies softmax."""
-
-    def __init__(self, net: StrokeNet, temperature: float) -> None:
-        super().__init__()
-        self.net = net
-        self.temperature = temperature
-
-    def forward(self, sequence: Tensor, whole: Tensor) -> Tensor:
-        return self.net(sequence, whole) / self.temperature
+INPUTS = ("points", "times", "stroke", "page", "timed")
+OUTPUTS = ("kinds", "strange", "together")
 
 
-def export(net: StrokeNet, temperature: float, target: Path, metadata: dict[str, str]) -> None:
-    """Writes the ONNX file. Inputs "sequence" (B, 12, 64) and "whole" (B, 26) float32, output "logits" (B, 9)."""
+def export(reader: RawReader, target: Path, metadata: dict[str, str]) -> None:
+    """Writes the ONNX file: inputs and outputs as `training.reader` describes them, any number of points and
+    strokes."""
     example = (
-        torch.zeros(2, len(SEQUENCE_CHANNELS), POINTS),
-        torch.zeros(2, len(GLOBAL_FEATURES) + len(PAGE_FEATURES)),
+        torch.tensor([[0, 0], [3, 1], [5, 5], [9, 9], [8, 2], [4, 4], [7, 1]], dtype=torch.float64),
+        torch.arange(7, dtype=torch.float64),
+        torch.tensor([0, 0, 0, 1, 1, 2, 2]),
+        torch.tensor([0, 0, 0]),
+        torch.ones(3),
     )
-    batch = torch.export.Dim("batch")
+    points, strokes = torch.export.Dim("points", min=2), torch.export.Dim("strokes", min=2)
+    shapes = {
+        "points": {0: points}, "times": {0: points}, "stroke": {0: points}, "page": {0: strokes}, "timed": {0: strokes}
+    }
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the exporter's own deprecation chatter
         program = torch.onnx.export(
-            Calibrated(net, temperature).eval(),
+            reader.eval(),
             example,
-            input_names=["sequence", "whole"],
-            output_names=["logits"],
-            dynamic_shapes={"sequence": {0: batch}, "whole": {0: batch}},
+            input_names=list(INPUTS),
+            output_names=list(OUTPUTS),
+            dynamic_shapes=shapes,
             external_data=False,
             dynamo=True,
             verbose=False,
@@ -61,14 +54,3 @@ def export(net: StrokeNet, temperature: float, target: Path, metadata: dict[str,
     onnx.checker.check_model(model)
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_bytes(model.SerializeToString())
-
-
-def parity(net: StrokeNet, temperature: float, file: Path, corpus: Corpus) -> float:
-    """Largest difference between torch's and onnxruntime's logits over a corpus."""
-    session = onnxruntime.InferenceSession(str(file), providers=["CPUExecutionProvider"])
-    (there,) = session.run(None, {"sequence": corpus.sequence, "whole": corpus.whole})
-    with torch.no_grad():
-        here = Calibrated(net, temperature).eval()(
-            torch.from_numpy(corpus.sequence), torch.from_numpy(corpus.whole)
-        )
-    return float(np.abs(here.numpy() - np.asarray(there)).max())
