@@ -1,30 +1,27 @@
 """Ideal curves: what a pen means to draw, before any hand touches it.
 
 Each function gives a polyline (n, 2) in page units, y down; corners are single vertices and
-curves are dense enough to pass for smooth (a point at least every 12 degrees).
+curves are dense enough to pass for smooth (a point at least every 12 degrees). The curves themselves
+are kernels (`data_gen.hand.curves`); here they are put between two points of a page.
 """
 
 from __future__ import annotations
 
-from bisect import bisect_right
-from itertools import accumulate, pairwise
-from math import dist, hypot
+from math import hypot, pi
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from data_gen.hand import entries
 from sketch.ink import FloatArray
 from sketch.shapes import Point
-
-ARC_STEP = np.radians(6.0)
-"""Angle between neighbouring points of an arc: the sagitta is 0.14 % of the radius."""
 
 
 def superellipse(
     centre: Point,
     radii: tuple[float, float],
     start: float = 0.0,
-    sweep: float = 2 * np.pi,
+    sweep: float = 2 * pi,
     squareness: float = 2.0,
     egg: float = 0.0,
 ) -> FloatArray:
@@ -32,19 +29,11 @@ def superellipse(
 
     squareness k: 2 an ellipse, above 2 boxy; egg in (−1, 1): narrower towards +x.
     """
-    count = max(8, int(abs(sweep) / ARC_STEP) + 2)
-    angle = start + np.arange(count) * (sweep / (count - 1))
-    cos, sin = np.cos(angle), np.sin(angle)
-    if squareness != 2.0:
-        reach = (np.abs(cos) ** squareness + np.abs(sin) ** squareness) ** (-1.0 / squareness)
-        cos, sin = reach * cos, reach * sin
-    points = np.empty((count, 2))
-    points[:, 0] = centre[0] + radii[0] * cos
-    points[:, 1] = centre[1] + radii[1] * sin * (1.0 - egg * cos)
-    return points
+    (x, y), (a, b) = centre, radii
+    return entries.superellipse(*map(float, (x, y, a, b, start, sweep, squareness, egg)))
 
 
-def circle(centre: Point, radius: float, start: float = 0.0, sweep: float = 2 * np.pi) -> FloatArray:
+def circle(centre: Point, radius: float, start: float = 0.0, sweep: float = 2 * pi) -> FloatArray:
     """A circle's outline from angle `start` through `sweep` radians; more than 2π overlaps."""
     return superellipse(centre, (radius, radius), start, sweep)
 
@@ -52,28 +41,8 @@ def circle(centre: Point, radius: float, start: float = 0.0, sweep: float = 2 * 
 def polygon(vertices: ArrayLike, start: float = 0.0, overlap: float = 0.0) -> FloatArray:
     """Once around the polygon, from `start` (sides travelled, fractional: 0.5 is the middle of the first
     side), ending `overlap` (fraction of the perimeter) past the start, or before it where negative."""
-    corners: list[list[float]] = np.asarray(vertices, dtype=float).tolist()
-    loop = [*corners, corners[0]]
-    travelled = [0.0, *accumulate(dist(a, b) for a, b in pairwise(loop))]
-    perimeter = travelled[-1]
-
-    def at(distance: float) -> list[float]:
-        place = distance % perimeter
-        side = min(bisect_right(travelled, place), len(corners)) - 1
-        share = (place - travelled[side]) / (travelled[side + 1] - travelled[side] or 1.0)
-        (x, y), (there_x, there_y) = loop[side], loop[side + 1]
-        return [x + share * (there_x - x), y + share * (there_y - y)]
-
-    whole, part = divmod(start % len(corners), 1.0)
-    begin = travelled[int(whole)] + part * (travelled[int(whole) + 1] - travelled[int(whole)])
-    end, hair = begin + perimeter * (1.0 + overlap), 1e-9 * perimeter
-    passed = [
-        corner
-        for turn in range(3)
-        for corner, reached in zip(corners, travelled[:-1], strict=True)
-        if begin + hair < reached + turn * perimeter < end - hair
-    ]
-    return np.array([at(begin), *passed, at(end)])
+    corners = np.array(vertices, dtype=float)
+    return entries.polygon(corners, float(start % len(corners)), float(overlap))
 
 
 def line(start: Point, end: Point) -> FloatArray:
@@ -90,17 +59,8 @@ def coil(
     the length that is straight at each end; lean: radius of the loops along the axis as a share of
     half the width (large enough that the loops cross themselves).
     """
-    axis, across, length = _frame(start, end)
-    body = length * (1 - 2 * lead)
-    steps = max(16, int(coils * 2 * np.pi / (2 * ARC_STEP)))
-    phase = np.arange(steps) * (2 * np.pi * coils / (steps - 1))
-    # The loop must run backwards faster than the axis advances, or it is a wave and not a coil.
-    advance = body / (2 * np.pi * coils)
-    backward = max(lean * width / 2, 1.6 * advance)
-    along = lead * length + body * phase / phase[-1] - backward * np.sin(phase)
-    beside = width / 2 * (1 - np.cos(phase))
-    beside -= phase * (beside[-1] / phase[-1])
-    return _placed(start, axis, across, along, beside, length)
+    length = _length(start, end)
+    return _placed(entries.coil(*map(float, (coils, length, width, lead, lean))), start, end)
 
 
 def zigzag(
@@ -117,13 +77,10 @@ def zigzag(
     spacing: relative advance of each leg, (legs,); heights: relative size of each of the legs − 1
     inner peaks; both 1 everywhere unless given.
     """
-    axis, across, length = _frame(start, end)
-    along, beside = np.zeros(legs + 1), np.zeros(legs + 1)
-    np.cumsum(np.ones(legs) if spacing is None else spacing, out=along[1:])
-    along = lead * length + along * ((1 - 2 * lead) * length / along[-1])
-    beside[1:-1] = width / 2 if heights is None else np.multiply(heights, width / 2)
-    beside[2:-1:2] *= -1.0
-    return _placed(start, axis, across, along, beside, length)
+    advances = np.ones(legs) if spacing is None else np.array(spacing, dtype=float)
+    peaks = np.ones(legs - 1) if heights is None else np.array(heights, dtype=float)
+    path = entries.zigzag(advances, peaks, _length(start, end), float(width), float(lead))
+    return _placed(path, start, end)
 
 
 def arrow(start: Point, end: Point, head: float, opening: float, closed: bool = False) -> FloatArray:
@@ -140,22 +97,15 @@ def arrow(start: Point, end: Point, head: float, opening: float, closed: bool = 
 
 def arrow_head(start: Point, end: Point, head: float, opening: float) -> FloatArray:
     """The head alone: barb, tip, barb, (3, 2)."""
-    tip = np.asarray(end, dtype=float)
-    axis, across, _ = _frame(start, end)
-    back, out = -head * np.cos(opening) * axis, head * np.sin(opening) * across
-    return np.array([tip + back + out, tip, tip + back - out])
+    back, out = -head * np.cos(opening), head * np.sin(opening)
+    return _placed(np.array([[back, out], [0.0, 0.0], [back, -out]]), start, end) + np.subtract(end, start)
 
 
-def _frame(start: Point, end: Point) -> tuple[FloatArray, FloatArray, float]:
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    length = hypot(dx, dy)
-    return np.array([dx / length, dy / length]), np.array([-dy / length, dx / length]), length
+def _length(start: Point, end: Point) -> float:
+    return hypot(end[0] - start[0], end[1] - start[1])
 
 
-def _placed(
-    start: Point, axis: FloatArray, across: FloatArray, along: FloatArray, beside: FloatArray, length: float
-) -> FloatArray:
-    body = start + along[:, None] * axis + beside[:, None] * across
-    if along[0] <= 1e-9 * length:
-        return body
-    return np.concatenate([[start], body, [start + length * axis]])
+def _placed(path: FloatArray, start: Point, end: Point) -> FloatArray:
+    """A path along +x from the origin, turned and moved to begin at `start` on the way to `end`."""
+    along = np.subtract(end, start) / _length(start, end)
+    return start + path[:, :1] * along + path[:, 1:] * np.array([-along[1], along[0]])

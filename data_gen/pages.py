@@ -16,9 +16,9 @@ import numpy as np
 
 from data_gen import drawing, layout, typeset
 from data_gen.diagrams.problem import Expected, Problem
-from data_gen.pen import draw_batch, strokes_from
+from data_gen.hand.batch import LOOSE
+from data_gen.pen import draw_each
 from data_gen.problems import ANSWERS, PROBLEMS, problem
-from data_gen.strokes import RULE as STROKE_RULE
 from data_gen.writers import Writer, sample_writer
 from sketch.formula.parse import expression
 from sketch.geometry import bounding_box
@@ -146,7 +146,7 @@ def _inked(meant: Problem, writer: Writer, rng: np.random.Generator) -> Sketch:
     wishes = [remark.about[0][1] if remark.about else None for remark in meant.remarks]
     sizes = [_size(line) for line in lines]
     places = layout.place(sizes, wishes, meant.components, writer.height, rng)
-    dots, letters = replace(writer, hooks=0.0), replace(writer, wobble=STROKE_RULE.loose * writer.wobble)
+    dots, letters = replace(writer, hooks=0.0), replace(writer, wobble=LOOSE * writer.wobble)
 
     def component(number: int, part: Component, shape: Shape) -> _Thing:
         return _Thing("component", number, drawing.paths(shape, writer, rng), _steadied(writer, part))
@@ -191,7 +191,7 @@ def _with_ink(things: Sequence[_Thing], rng: np.random.Generator) -> list[_Thing
     """The things with their ink, each stroke's times beginning at 0."""
     paths = [path for thing in things for path in thing.paths]
     writers = [thing.writer for thing in things for _ in thing.paths]
-    strokes = iter(strokes_from(draw_batch(paths, writers, rng.spawn(len(paths)))))
+    strokes = iter(draw_each(paths, writers, rng))
     return [replace(thing, strokes=tuple(islice(strokes, len(thing.paths)))) for thing in things]
 
 

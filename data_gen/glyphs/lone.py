@@ -14,6 +14,7 @@ from typing import Literal
 import numpy as np
 
 from data_gen.glyphs import alphabet
+from data_gen.hand.signs import Glyphs, Pools
 from sketch.geometry import closure, path_length
 from sketch.ink import FloatArray
 
@@ -30,31 +31,61 @@ DOT = 1.0
 RING = 0.1
 """The ring of θ, φ or Q closes within this fraction of its length, and is a circle when alone."""
 
+ARROWS = frozenset({r"\rightarrow", r"\Delta", r"\cdot", r"\ldots"})
+"""Signs of several strokes that are no mathematics when they stand alone."""
 OTHERS = frozenset({"0", "o", "O", r"\Delta", ".", r"\cdot", r"\ldots"})
 """Symbols that are a circle, a polygon or a tap when they stand alone."""
 
-Ways = tuple[tuple[FloatArray, ...], ...]
-"""For each entry of a pool the strokes that it can be."""
-
 
 @cache
-def lone_strokes(pool: Pool) -> Ways:
-    """The strokes of a pool, symbol by symbol; frequent symbols stand in it several times."""
+def pools() -> Pools:
+    """The tables that the kernels pick from; frequent symbols stand in them several times."""
+    return Pools(
+        *(_table(_singles(pool)) for pool in ("symbols", "marks", "round letters", "all")), _table(_whole())
+    )
+
+
+Way = tuple[FloatArray, ...]
+"""The strokes of one way of writing a sign."""
+
+
+def _table(signs: Sequence[tuple[Way, ...]]) -> Glyphs:
+    ways = [way for sign in signs for way in sign]
+    strokes = [stroke for way in ways for stroke in way]
+    return Glyphs(
+        np.concatenate(strokes),
+        np.cumsum([len(stroke) for stroke in strokes]),
+        np.cumsum([len(way) for way in ways]),
+        np.cumsum([len(sign) for sign in signs]),
+    )
+
+
+def _singles(pool: Pool) -> list[tuple[Way, ...]]:
     names = {
         "symbols": alphabet.symbols(),
         "marks": alphabet.marks(),
         "round letters": tuple("abcdeghloqsz"),
         "all": alphabet.symbols(),
     }[pool]
-    found = [(_weight(name), _strokes(name, pool)) for name in names]
-    return tuple(strokes for weight, strokes in found if strokes for _ in range(weight))
+    found = [(_weight(name), tuple((stroke,) for stroke in _strokes(name, pool))) for name in names]
+    return [ways for weight, ways in found if ways for _ in range(weight)]
 
 
-def pick(pool: Ways, rng: np.random.Generator) -> FloatArray:
-    """One stroke: a symbol at random, then one of its strokes at random."""
-    one, other = rng.random(2).tolist()
-    ways = pool[int(one * len(pool))]
-    return ways[int(other * len(ways))]
+def _whole() -> list[tuple[Way, ...]]:
+    """Signs of several strokes, about one unit large about their middle."""
+    found: list[tuple[Way, ...]] = []
+    for name in alphabet.symbols() + alphabet.marks():
+        ways = [alphabet.strokes(name, variant) for variant in range(alphabet.variants(name))]
+        several = tuple(_centred(way) for way in ways if len(way) > 1 and name not in ARROWS)
+        found += [several] * _weight(name) if several else []
+    return found
+
+
+def _centred(way: Way) -> Way:
+    every = np.concatenate(way)
+    low, high = every.min(axis=0), every.max(axis=0)
+    size = float((high - low).max())
+    return tuple((stroke - (low + high) / 2) / size for stroke in way)
 
 
 def _weight(name: str) -> int:

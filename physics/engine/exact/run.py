@@ -21,6 +21,7 @@ from physics.engine.exact import decide as de
 from physics.engine.exact import flow as fl
 from physics.engine.exact import happen as ha
 from physics.engine.exact import strike as st
+from physics.engine.exact.blow import HELD
 from physics.engine.exact.explain import explain, follow_frames
 from physics.engine.exact.integrate import projected
 from physics.engine.exact.machine import FIRST, H, Machine, T, machine_of
@@ -272,15 +273,9 @@ class ExactRun:
                     ha.release(self.world, self.names, body, self.tell, self.time)
             self._press(rows, approach)
             rows["shut"] = 0
-            self.works[0] += st.strike(
-                self.world.cells,
-                rows,
-                self.pos,
-                self.vel,
-                rise,
-                lately > CROWD,
-                np.zeros_like(self.vel),
-                struck,
+            before = np.zeros_like(self.vel)
+            self._lose(
+                st.strike(self.world.cells, rows, self.pos, self.vel, rise, lately > CROWD, before, struck)
             )
             self.tell.impacts(self.time, rows, struck)
         if not self._hold(rows, closed & (rows["kind"] <= CORD), rise) and not (approach.any() or pins.any()):
@@ -306,11 +301,17 @@ class ExactRun:
             if not slow.any():
                 break
             self._press(rows, slow)
-            self.works[0] += st.hold(self.world.cells, rows, self.pos, self.vel, rise)
-            before, held = held, rows["bound"] == st.HELD
+            self._lose(st.hold(self.world.cells, rows, self.pos, self.vel, rise))
+            before, held = held, rows["bound"] == HELD
             if np.array_equal(before, held):
                 break
         return bool(held.any())
+
+    def _lose(self, heat: float) -> None:
+        """Enters the heat of a blow, J. Raises TooMuch where no blow was found."""
+        if not heat >= -np.inf:
+            raise TooMuch
+        self.works[0] += heat
 
     def _press(self, rows: Table, free: BoolArray) -> None:
         """Notes how the gaps of rows accelerate while some of them do not hold."""

@@ -6,7 +6,7 @@ through a Newton's cradle. Wires and pins take whatever impulse keeps them, with
 and friction together can create energy (Kane and Levinson 1985); then there is as much restitution as
 the energy allows.
 
-Frame: SI units, y up. Source of the sweeps: Moreau (1988), projected Gauss-Seidel.
+Frame: SI units, y up. What the rows push in one blow: physics.engine.exact.blow.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from physics.engine.cells import head
+from physics.engine.exact.blow import HELD, JAMMED, blow
 from physics.engine.exact.touch import TOUCHING
 from physics.engine.rows import CORD, GIVEN, PIN_X, POINT, refresh, refresh_table
 from physics.engine.tables import WORLD, inverses, masses
@@ -31,13 +32,6 @@ RISE = 1e-9
 infinitely many."""
 ROUNDS = 60
 """Blows in consequence of one another, until they rebound no more."""
-HELD = 2.0
-"""Mark of a row that may pull as well as push, to stay shut."""
-JAMMED = 3.0
-"""Mark of a row that may pull and push, and rub as hard as it takes."""
-SWEEPS = 20_000
-SETTLED = 2e-16
-"""Share of the greatest speed by which the last sweep may still change one."""
 
 
 @kernel
@@ -51,7 +45,7 @@ def strike(
     before: FloatArray,
     struck: FloatArray,
 ) -> float:
-    """Changes `vel`; returns the heat, J. rows[k].press must be known.
+    """Changes `vel`; returns the heat, J: NaN where no blow was found that fits. rows[k].press must be known.
 
     struck (rows,): how fast each contact closed when it was hit, m/s, zero if it was not. before: room for
     velocities. rise: m, see `RISE`; crowded: nothing rebounds.
@@ -91,9 +85,11 @@ def strike(
             for a in range(3):
                 before[i, a] = vel[i, a]
         start = kinetic(w, vel)
-        _sweep(w, rows, vel)
+        found = blow(w, rows, vel)
         if kinetic(w, vel) > start * (1.0 + 1e-12):
-            _calm(w, rows, vel, before, start)
+            found = _calm(w, rows, vel, before, start) and found
+        if not found:
+            return np.nan
     refresh_table(rows, pos, vel)
     return energy - kinetic(w, vel)
 
@@ -102,7 +98,7 @@ def strike(
 def hold(cells: FloatArray, rows: Table, pos: FloatArray, vel: FloatArray, rise: float) -> float:
     """Keeps shut, or taut, what would open by less than `rise` (m) before it is pressed shut again: two corners
     that lift each other, or two wires that slacken each other, would go on without end. Changes `vel`; returns the
-    heat, J. rows[k].press must be known for those that open slowly; marks those that it holds `HELD`, and holds what
+    heat, J: NaN where no blow was found. rows[k].press must be known for those that open slowly; marks those that it holds `HELD`, and holds what
     is marked so already."""
     w = head(cells, WORLD)
     energy = kinetic(w, vel)
@@ -121,56 +117,10 @@ def hold(cells: FloatArray, rows: Table, pos: FloatArray, vel: FloatArray, rise:
             row.bound = HELD
             needed = True
     if needed:
-        _sweep(w, rows, vel)
+        if not blow(w, rows, vel):
+            return np.nan
         refresh_table(rows, pos, vel)
     return energy - kinetic(w, vel)
-
-
-@part
-def _sweep(w: Any, rows: Table, vel: FloatArray) -> None:
-    """Impulses of the rows that take part (`bound` is 1, `HELD` or `JAMMED`), one after another, until none changes
-    any more."""
-    inverse = inverses(w)
-    for k in range(len(rows)):
-        rows[k].force = rows[k].rub = 0.0
-    for _ in range(SWEEPS):
-        speed, moved = 0.0, 0.0
-        for k in range(len(rows)):
-            row = rows[k]
-            if row.bound == 0.0:
-                continue
-            i, j = row.i, row.j
-            give, rate = 0.0, 0.0
-            for a in range(3):
-                give += row.J[a] ** 2 * inverse[i, a] + row.J[3 + a] ** 2 * inverse[j, a]
-                rate += row.J[a] * vel[i, a] + row.J[3 + a] * vel[j, a]
-            if give > 0.0:
-                total = row.force + (row.along - rate) / give
-                if row.kind <= CORD and row.bound < HELD:
-                    total = max(total, 0.0)
-                change = total - row.force
-                row.force = total
-                for a in range(3):
-                    vel[i, a] += inverse[i, a] * row.J[a] * change
-                    vel[j, a] += inverse[j, a] * row.J[3 + a] * change
-                moved = max(moved, abs(change) * give)
-                speed = max(speed, abs(rate), abs(total) * give)
-            if row.kind <= POINT and row.mu > 0.0:
-                give, rate = 0.0, 0.0
-                for a in range(3):
-                    give += row.T[a] ** 2 * inverse[i, a] + row.T[3 + a] ** 2 * inverse[j, a]
-                    rate += row.T[a] * vel[i, a] + row.T[3 + a] * vel[j, a]
-                if give > 0.0:
-                    bound = row.mu * max(row.force, 0.0) if row.bound < JAMMED else 1e300
-                    total = min(max(row.rub - rate / give, -bound), bound)
-                    change = total - row.rub
-                    row.rub = total
-                    for a in range(3):
-                        vel[i, a] += inverse[i, a] * row.T[a] * change
-                        vel[j, a] += inverse[j, a] * row.T[3 + a] * change
-                    moved = max(moved, abs(change) * give)
-        if moved <= SETTLED * speed:
-            return
 
 
 @kernel
@@ -188,22 +138,22 @@ def unjam(cells: FloatArray, rows: Table, pos: FloatArray, vel: FloatArray, jam:
         shut = row.gap <= TOUCHING and row.kind != GIVEN and (row.kind >= PIN_X or row.rate <= APPROACH)
         row.bound, row.along = (1.0 if shut else 0.0), 0.0
     rows[jam].bound = JAMMED
-    _sweep(w, rows, vel)
+    found = blow(w, rows, vel)
     refresh_table(rows, pos, vel)
-    return energy - kinetic(w, vel) if rows[jam].force > 0.0 else np.nan
+    return energy - kinetic(w, vel) if found and rows[jam].force > 0.0 else np.nan
 
 
 @part
-def _calm(w: Any, rows: Table, vel: FloatArray, before: FloatArray, most: float) -> None:
+def _calm(w: Any, rows: Table, vel: FloatArray, before: FloatArray, most: float) -> bool:
     """From the velocities before, as much of the way from the dead impact to the lively one as leaves the
-    kinetic energy at `most`."""
+    kinetic energy at `most`. Tells whether the dead one was found."""
     lively = vel.copy()
     for i in range(len(vel)):
         for a in range(3):
             vel[i, a] = before[i, a]
     for k in range(len(rows)):
         rows[k].along = 0.0
-    _sweep(w, rows, vel)
+    found = blow(w, rows, vel)
     start, end = kinetic(w, vel), kinetic(w, lively)
     middle = kinetic(w, 0.5 * (vel + lively))
     # Along the way it is a parabola: start + slope s + bend s².
@@ -215,6 +165,7 @@ def _calm(w: Any, rows: Table, vel: FloatArray, before: FloatArray, most: float)
     for i in range(len(vel)):
         for a in range(3):
             vel[i, a] += share * (lively[i, a] - vel[i, a])
+    return found
 
 
 @part
