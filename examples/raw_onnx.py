@@ -25,5 +25,10 @@ kinds, strange, together = session.run(
     },
 )
 names = [KINDS[row.argmax()] for row in kinds]
-found = {"names": names, "scores": kinds.tolist(), "strange": strange.tolist(), "together": together.ravel().tolist()}
+found = {
+    "names": names,
+    "scores": kinds.tolist(),
+    "strange": strange.tolist(),
+    "together": together.ravel().tolist(),
+}
 sys.stdout.write(json.dumps(found) + "\n")

@@ -56,7 +56,9 @@ def main(arguments: list[str] | None = None) -> int:
             checkpoint=work / "checkpoint.pt",
         )
         fitted = time.monotonic()
-        unseen = make_corpus(held, options.seed + 1_000, options.threads, lambda s: tell("held-out ink", s, ""))
+        unseen = make_corpus(
+            held, options.seed + 1_000, options.threads, lambda s: tell("held-out ink", s, "")
+        )
     found, figures = _judged(net, unseen, options.seed, held)
     target = Path(options.out)
     recipe = {
@@ -75,7 +77,9 @@ def main(arguments: list[str] | None = None) -> int:
     }
     reader = RawReader(net, found.temperature).eval()
     export(reader, target, {"inklined": json.dumps(recipe)})
-    recipe["parity_with_torch"] = parity(reader, target, seed=options.seed + 2_000, strokes=min(10_000, plan.total))
+    recipe["parity_with_torch"] = parity(
+        reader, target, seed=options.seed + 2_000, strokes=min(10_000, plan.total)
+    )
     recipe["minutes_of_fitting"] = round((fitted - trained) / 60, 2)
     recipe["minutes"] = round((time.monotonic() - begun) / 60, 2)
     target.with_suffix(".json").write_text(json.dumps(recipe, indent=2, ensure_ascii=False) + "\n", "utf-8")
@@ -139,13 +143,20 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     )
     parser.add_argument("--seed", type=int, default=1, help="everything follows from it (default 1)")
     parser.add_argument(
-        "--drawings", type=int, default=Plan().total, help=f"generated drawings to train on (default {Plan().total:,})"
+        "--drawings",
+        type=int,
+        default=Plan().total,
+        help=f"generated drawings to train on (default {Plan().total:,})",
     )
     parser.add_argument("--epochs", type=int, default=RULE.epochs, help="times each stroke is looked at")
     parser.add_argument("--threads", type=int, default=os.cpu_count() or 1, help="processor cores to use")
-    parser.add_argument("--work", default=str(WORK), help=f"where corpus and checkpoint are kept (default {WORK})")
     parser.add_argument(
-        "--resume", action="store_true", help="take up the training that was stopped, after its last whole epoch"
+        "--work", default=str(WORK), help=f"where corpus and checkpoint are kept (default {WORK})"
+    )
+    parser.add_argument(
+        "--resume",
+        action="store_true",
+        help="take up the training that was stopped, after its last whole epoch",
     )
     parser.add_argument(
         "--out", default=str(WEIGHTS), help="the ONNX file to write (default: the shipped one)"

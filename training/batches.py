@@ -13,7 +13,7 @@ from torch import Tensor
 from training.dataset import Corpus
 from training.features import Features, backwards
 from training.nets import PageNet
-from training.relations import Relations, frames
+from training.relations import Relations, own_frame, page_frame
 
 LENGTHS = (1, 2, 4, 8, 16, 32, 64)
 """Pages are padded up to the next of these numbers of strokes."""
@@ -55,7 +55,11 @@ def batches(corpus: Corpus, steps: int, rng: np.random.Generator | None) -> Iter
             chosen = rng.permutation(chosen)
         groups.append(np.array_split(chosen, steps))
     for step in range(steps):
-        yield [_padded(corpus, group[step], longest) for group, longest in zip(groups, LENGTHS, strict=True) if len(group[step])]
+        yield [
+            _padded(corpus, group[step], longest)
+            for group, longest in zip(groups, LENGTHS, strict=True)
+            if len(group[step])
+        ]
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,16 +78,20 @@ def look(corpus: Corpus, chunk: int = 4096) -> Looked:
     with torch.no_grad():
         for first in range(0, len(corpus.kind), chunk):
             paths = torch.from_numpy(corpus.paths[first : first + chunk])
-            alone = torch.ones(len(paths), 1, 1, dtype=torch.bool)
-            own = frames(paths[:, None], alone)[0][:, 0]
-            sequence, whole = features(own, torch.from_numpy(corpus.distinct[first : first + chunk]))
+            sequence, whole = features(
+                own_frame(paths), torch.from_numpy(corpus.distinct[first : first + chunk])
+            )
             sequences.append(sequence.half())
             wholes.append(whole)
     return Looked(torch.cat(sequences), torch.cat(wholes))
 
 
 def answers(
-    net: PageNet, looked: Looked, relations: Relations, batch: list[Pages], flips: np.random.Generator | None = None
+    net: PageNet,
+    looked: Looked,
+    relations: Relations,
+    batch: list[Pages],
+    flips: np.random.Generator | None = None,
 ) -> list[Answers]:
     """Runs the net: all strokes of the batch are encoded together, then each length of page is read. With
     `flips` each stroke is looked at in one drawing sense only, drawn at random."""
@@ -105,10 +113,12 @@ def answers(
         at += strokes
         with torch.no_grad():
             same = pages.there[:, :, None] & pages.there[:, None]
-            _, on_page, standing = frames(pages.paths, same)
+            on_page, standing = page_frame(pages.paths, same)
             between = relations(on_page, pages.span, pages.timed)
             company = same.float() * (1.0 - torch.eye(longest))
-        found.append(Answers(*net(flat.reshape(count, longest, -1), standing, between, company), company, pages))
+        found.append(
+            Answers(*net(flat.reshape(count, longest, -1), standing, between, company), company, pages)
+        )
     return found
 
 

@@ -78,7 +78,9 @@ class Plan:
 
     def scaled(self, share: float) -> Plan:
         """The same mixture, larger or smaller."""
-        counts = {name: round(share * getattr(self, name)) for name in ("alone", "strewn", "pages", "doodles")}
+        counts = {
+            name: round(share * getattr(self, name)) for name in ("alone", "strewn", "pages", "doodles")
+        }
         return replace(self, **counts)
 
 
@@ -180,7 +182,9 @@ def strewn(start: int, count: int, seed: int, plan: Plan) -> Iterator[Drawing]:
         yield _strewn(chosen, gestures, offset, rng)
 
 
-def _strewn(chosen: Sequence[LabelledItem], gestures: _Gestures, number: int, rng: np.random.Generator) -> Drawing:
+def _strewn(
+    chosen: Sequence[LabelledItem], gestures: _Gestures, number: int, rng: np.random.Generator
+) -> Drawing:
     placed: list[tuple[LabelledItem, tuple[Stroke, ...]]] = []
     boxes: list[FloatArray] = []
     for item in chosen:
@@ -201,12 +205,24 @@ def _strewn(chosen: Sequence[LabelledItem], gestures: _Gestures, number: int, rn
         low, high = np.min(held, axis=0)[:2], np.max(held, axis=0)[2:]
         middle, half = (low + high) / 2, (high - low) / 2
         room = rng.uniform(*STREWN.room, 2)
-        over.append((gestures.lassos[number], _stretched(gestures.lassos[number].strokes, middle - room * half - 6, middle + room * half + 6)))
+        over.append(
+            (
+                gestures.lassos[number],
+                _stretched(
+                    gestures.lassos[number].strokes, middle - room * half - 6, middle + room * half + 6
+                ),
+            )
+        )
     elif u[2] < STREWN.scribble:
         box = boxes[int(rng.integers(len(boxes)))]
         middle, half = (box[:2] + box[2:]) / 2, (box[2:] - box[:2]) / 2
         reach = np.maximum(half * rng.uniform(0.5, 1.2, 2), 6.0)
-        over.append((gestures.scribbles[number], _stretched(gestures.scribbles[number].strokes, middle - reach, middle + reach)))
+        over.append(
+            (
+                gestures.scribbles[number],
+                _stretched(gestures.scribbles[number].strokes, middle - reach, middle + reach),
+            )
+        )
     strokes, kinds, things = list[Stroke](), list[int](), list[int]()
     clock = 0.0
     for thing, (item, drawn) in enumerate([*placed, *over]):
@@ -263,7 +279,8 @@ def _moved(
     strokes: Sequence[Stroke], middle: FloatArray, to: FloatArray, scale: FloatArray
 ) -> tuple[Stroke, ...]:
     return tuple(
-        Stroke.trusted((stroke.points - middle) * scale + to, stroke.times, stroke.pressure) for stroke in strokes
+        Stroke.trusted((stroke.points - middle) * scale + to, stroke.times, stroke.pressure)
+        for stroke in strokes
     )
 
 
@@ -302,5 +319,3 @@ def _end(stroke: Stroke, clock: float) -> float:
 def _range(count: int, part: int, parts: int) -> tuple[int, int]:
     first, last = count * part // parts, count * (part + 1) // parts
     return first, last - first
-
-

@@ -1,4 +1,9 @@
-"""The net as one ONNX file that takes raw ink: cleaning, spacing, features, both senses, page, softmax inside."""
+"""The net as one ONNX file that takes raw ink: cleaning, spacing, features, both senses, page, softmax inside.
+
+torch exports three graphs: what each stroke looks like by itself, and the answers for strokes in company
+and for strokes alone. They are put together as one with an `If`, so that a single stroke does not pay for
+what lies between strokes.
+"""
 
 from __future__ import annotations
 
@@ -7,35 +12,72 @@ from pathlib import Path
 
 import onnx
 import torch
+from onnx import GraphProto, ModelProto, NodeProto, helper
+from torch import Tensor, nn
 
 from training.reader import RawReader
 
 INPUTS = ("points", "times", "stroke", "page", "timed")
 OUTPUTS = ("kinds", "strange", "together")
+BETWEEN = ("encoded", "paths", "moments", "company")
 
 
 def export(reader: RawReader, target: Path, metadata: dict[str, str]) -> None:
     """Writes the ONNX file: inputs and outputs as `training.reader` describes them, any number of points and
     strokes."""
-    example = (
-        torch.tensor([[0, 0], [3, 1], [5, 5], [9, 9], [8, 2], [4, 4], [7, 1]], dtype=torch.float64),
-        torch.arange(7, dtype=torch.float64),
-        torch.tensor([0, 0, 0, 1, 1, 2, 2]),
-        torch.tensor([0, 0, 0]),
-        torch.ones(3),
-    )
-    points, strokes = torch.export.Dim("points", min=2), torch.export.Dim("strokes", min=2)
-    shapes = {
-        "points": {0: points}, "times": {0: points}, "stroke": {0: points}, "page": {0: strokes}, "timed": {0: strokes}
+    model = assembled(reader)
+    for key, text in metadata.items():
+        entry = model.metadata_props.add()
+        entry.key, entry.value = key, text
+    onnx.checker.check_model(model, full_check=True)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_bytes(model.SerializeToString())
+
+
+def assembled(reader: RawReader) -> ModelProto:
+    """The whole reader as one model."""
+    points, times = torch.rand(7, 2, dtype=torch.float64), torch.arange(7, dtype=torch.float64)
+    stroke, page, timed = torch.tensor([0, 0, 0, 1, 1, 2, 2]), torch.tensor([0, 0, 0]), torch.ones(3)
+    with torch.no_grad():
+        encoded, paths, moments, _ = reader.encoded(points, times, stroke, page)
+    front = _exported(reader.encoded, dict(zip(INPUTS, (points, times, stroke, page), strict=False)), BETWEEN)
+    company = {"encoded": encoded, "paths": paths, "moments": moments, "page": page, "timed": timed}
+    branches = {
+        "then_branch": _exported(reader.in_company, company, OUTPUTS),
+        "else_branch": _exported(reader.alone, {"encoded": encoded}, OUTPUTS),
     }
+    graph = front.graph
+    stored: dict[bytes, str] = {}
+    graphs: dict[str, GraphProto] = {}
+    for name, branch in branches.items():
+        _prefixed(branch.graph, f"{name[:4]}.", (*BETWEEN, *INPUTS))
+        graphs[name] = _bare(branch.graph, graph, stored)
+    graph.node.append(helper.make_node("If", ["company"], list(OUTPUTS), name="company_or_not", **graphs))
+    known = {value.name: value for value in (*graph.input, *branches["then_branch"].graph.input)}
+    outputs = list(branches["then_branch"].graph.output)
+    for value, name in zip(outputs, OUTPUTS, strict=True):
+        value.name = name
+    whole = helper.make_graph(
+        list(graph.node), "inklined", [known[name] for name in INPUTS], outputs, list(graph.initializer)
+    )
+    model = helper.make_model(whole, opset_imports=list(front.opset_import), ir_version=10)
+    model.producer_name = "inklined"
+    return model
+
+
+def _exported(module: nn.Module, example: dict[str, Tensor], outputs: tuple[str, ...]) -> ModelProto:
+    """A part as a model of its own: strokes and points may be any number."""
+    points, strokes = torch.export.Dim("points", min=2), torch.export.Dim("strokes", min=2)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the exporter's own deprecation chatter
         program = torch.onnx.export(
-            reader.eval(),
-            example,
-            input_names=list(INPUTS),
-            output_names=list(OUTPUTS),
-            dynamic_shapes=shapes,
+            module.eval(),
+            tuple(example.values()),
+            input_names=list(example),
+            output_names=list(outputs),
+            dynamic_shapes={
+                name: {0: points if name in ("points", "times", "stroke") else strokes} for name in example
+            },
             external_data=False,
             dynamo=True,
             verbose=False,
@@ -46,11 +88,47 @@ def export(reader: RawReader, target: Path, metadata: dict[str, str]) -> None:
     for node in model.graph.node:
         del node.metadata_props[:]
         node.doc_string = ""
-    for value in [*model.graph.input, *model.graph.output, *model.graph.value_info]:
+    for value in [*model.graph.input, *model.graph.output]:
         del value.metadata_props[:]
-    for key, text in metadata.items():
-        entry = model.metadata_props.add()
-        entry.key, entry.value = key, text
-    onnx.checker.check_model(model)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_bytes(model.SerializeToString())
+    del model.graph.value_info[:]
+    return model
+
+
+def _prefixed(graph: GraphProto, prefix: str, kept: tuple[str, ...]) -> None:
+    """Gives every value of a branch a name that no other has, but for those that come from outside."""
+    outside = {value.name for value in graph.input} & set(kept)
+
+    def renamed(name: str) -> str:
+        return name if name in outside or not name else prefix + name
+
+    for tensor in graph.initializer:
+        tensor.name = renamed(tensor.name)
+    for node in graph.node:
+        node.name = prefix + node.name
+        _rename(node, {name: renamed(name) for name in (*node.input, *node.output)})
+    for value in graph.output:
+        value.name = renamed(value.name)
+
+
+def _bare(branch: GraphProto, graph: GraphProto, stored: dict[bytes, str]) -> GraphProto:
+    """The branch without inputs, its stored numbers moved to the outer graph, each only once."""
+    known: dict[str, str] = {}
+    for tensor in branch.initializer:
+        name = tensor.name
+        tensor.name = ""
+        content = tensor.SerializeToString()
+        if content not in stored:
+            stored[content] = name
+            tensor.name = name
+            graph.initializer.append(tensor)
+        known[name] = stored[content]
+    for node in branch.node:
+        _rename(node, known)
+    return helper.make_graph(list(branch.node), branch.name, [], list(branch.output))
+
+
+def _rename(node: NodeProto, names: dict[str, str]) -> None:
+    inputs, outputs = ([names.get(name, name) for name in side] for side in (node.input, node.output))
+    del node.input[:], node.output[:]
+    node.input.extend(inputs)
+    node.output.extend(outputs)

@@ -90,123 +90,145 @@ WHOLE = (
 
 class Features(nn.Module):
     """paths (B, 64, 2) in the strokes' own frames (a stroke that never moved: zeros) and the number of
-    different raw points (B,) -> sequence (B, 15, 64) and whole (B, 19)."""
+    different raw points (B,) -> sequence (B, 15, 64) and whole (B, 19).
+
+    Columns stay columns, (B, 1), and what is summed is summed together: to a single stroke each operator
+    costs more than its arithmetic.
+    """
 
     differences: Tensor
-    apart: Tensor
     support: Tensor
+    units: Tensor
 
     def __init__(self) -> None:
         super().__init__()
         self.register_buffer("differences", torch.from_numpy(_differences()), persistent=False)
-        between = np.abs(np.subtract.outer(np.arange(POINTS - 1), np.arange(POINTS - 1)))
-        self.register_buffer("apart", torch.from_numpy((between >= 2).astype(np.float32)), persistent=False)
         angle = np.arange(RULE.directions) * (np.pi / RULE.directions)
         directions = np.stack([np.cos(angle), np.sin(angle)]).astype(np.float32)
         self.register_buffer("support", torch.from_numpy(directions), persistent=False)
+        units = [2.0, 1.0, 1.0, 1 / (4 * np.pi)]
+        self.register_buffer("units", torch.tensor(units, dtype=torch.float32)[:, None], persistent=False)
 
     def forward(self, paths: Tensor, distinct: Tensor) -> tuple[Tensor, Tensor]:
         spans = len(RULE.spans)
         xy = paths.transpose(1, 2)
         vectors = (xy @ self.differences).reshape(-1, 2, 2 * spans + 4, POINTS)
-        x, y = vectors[:, 0], vectors[:, 1]
-        lengths = torch.sqrt(x * x + y * y)
-        # Turns over each span: the chord that comes in and the chord that leaves.
-        ax, bx, ay, by = x[:, :spans], x[:, spans : 2 * spans], y[:, :spans], y[:, spans : 2 * spans]
-        both = lengths[:, :spans] * lengths[:, spans : 2 * spans]
+        lengths = torch.sqrt((vectors * vectors).sum(dim=1))
+        come, leave, towards, others = vectors.split([spans, spans, 1, 3], dim=2)
+        come_length, leave_length, towards_length, away = lengths.split([spans, spans, 1, 3], dim=1)
+        # Turns over each span, between the chord that comes in and the chord that leaves.
+        both = come_length * leave_length
         sure = 1.0 / (both + RULE.still**2)
-        cosine, sine = (ax * bx + ay * by) * sure, (ax * by - ay * bx) * sure
+        cosine = (come * leave).sum(dim=1) * sure
+        sine = _cross(come, leave) * sure
         sharp = 0.5 * (both * sure - cosine)
-        turn = 2.0 * torch.atan(sine[:, 0] / (1.0 + RULE.reversal + cosine[:, 0]))
-        before = torch.cumsum(turn, dim=1)
-        signed = before[:, -1:]
-        # Sides: how far each point lies to the left of each step, as certainty between -1 and 1.
-        step_x, step_y, step = x[:, spans, :-1], y[:, spans, :-1], lengths[:, spans, :-1]
-        normal = torch.stack([-step_y, step_x], dim=1) / (step[:, None] + RULE.still)
-        offset = (normal * xy[:, :, :-1]).sum(dim=1)
-        side = torch.clamp((normal.transpose(1, 2) @ xy - offset[..., None]) * (1 / RULE.aside), -1.0, 1.0)
-        parted = torch.relu(-side[:, :, 1:] * side[:, :, :-1])
-        crossed = (parted * parted.transpose(1, 2) * self.apart).sum(dim=2)
-        crossings = 0.5 * (nn.functional.pad(crossed, (0, 1)) + nn.functional.pad(crossed, (1, 0)))
-        heading = vectors[:, :, 2 * spans] / (lengths[:, None, 2 * spans] + RULE.still)
-        away = lengths[:, 2 * spans + 1 :]
+        turn = 2.0 * torch.atan(sine[:, :1] / (cosine[:, :1] + (1.0 + RULE.reversal)))
+        turned = torch.cumsum(turn, dim=2)
+        crossed = self._crossed(xy, leave[:, :, 0], leave_length[:, :1])
+        crossings = 0.5 * (crossed + nn.functional.pad(crossed[:, :, :-1], (1, 0)))
         sequence = torch.cat(
             [
                 2.0 * xy,
-                heading,
+                (towards / (towards_length[:, None] + RULE.still))[:, :, 0],
                 sine,
                 sharp,
-                2.0 * away[:, :1],
-                away[:, 1:],
-                (before - 0.5 * (turn + signed))[:, None] * (1 / (4 * np.pi)),
-                torch.clamp(crossings, max=3.0)[:, None] * (1 / 3),
+                torch.cat([away, turned - 0.5 * (turn + turned[:, :, -1:])], dim=1) * self.units,
+                torch.clamp(crossings, max=3.0) * (1 / 3),
             ],
             dim=1,
         )
-        whole = self._whole(vectors, lengths, turn, sharp, crossed, distinct)
-        return sequence, whole
+        return sequence, self._whole(others, leave_length[:, :1], away, turn, sharp, crossed, distinct)
+
+    def _crossed(self, xy: Tensor, step: Tensor, length: Tensor) -> Tensor:
+        """How many other steps cross the step that leaves each point, (B, 1, 64); none at the last.
+
+        How far each point lies to the left of each step is a certainty between −1 and 1; neighbouring steps
+        share a point, which lies on neither side, so that they never cross.
+        """
+        steps = step / ((length + RULE.still) * RULE.aside)
+        normal = torch.cat([-steps[:, 1:], steps[:, :1]], dim=1)
+        offset = (normal * xy).sum(dim=1, keepdim=True)
+        side = torch.clamp(normal.transpose(1, 2) @ xy - offset.transpose(1, 2), -1.0, 1.0)
+        parted = torch.clamp(side[:, :-1, 1:] * side[:, :-1, :-1], max=0.0)
+        crossed = (parted * parted.transpose(1, 2)).sum(dim=1, keepdim=True)
+        return nn.functional.pad(crossed, (0, 1))
 
     def _whole(
-        self, vectors: Tensor, lengths: Tensor, turn: Tensor, sharp: Tensor, crossed: Tensor, distinct: Tensor
+        self,
+        others: Tensor,
+        steps: Tensor,
+        away: Tensor,
+        turn: Tensor,
+        sharp: Tensor,
+        crossed: Tensor,
+        distinct: Tensor,
     ) -> Tensor:
-        spans = len(RULE.spans)
-        steps, radius = lengths[:, spans, :-1], lengths[:, 2 * spans + 1]
-        still = (steps.sum(dim=1) == 0).float()
-        moving = 1.0 - still
-        length = steps.sum(dim=1) + still
-        chord = lengths[:, 2 * spans + 2, -1]
-        middle = vectors[:, :, 2 * spans + 1]
-        x, y = middle[:, 0], middle[:, 1]
-        means = torch.stack([x * x, y * y, x * y, radius], dim=1).mean(dim=2)
-        xx, yy, xy, mean_radius = means[:, 0], means[:, 1], means[:, 2], means[:, 3]
+        """others (B, 2, 3, 64): where each point lies from the centroid, the start and the end, `away` how far."""
+        middle, from_start, _ = others.unbind(dim=2)
+        radius = away[:, :1]
+        squares = middle * middle
+        product = middle[:, :1] * middle[:, 1:]
+        around = torch.cat([middle, middle[:, :, :1]], dim=2)
+        swept = _cross(around[:, :, :-1], around[:, :, 1:])
+        corners = torch.relu(sharp[:, 1:2] - RULE.corner)
+        summed = torch.cat(
+            [steps, turn, turn.abs(), sharp[:, :1], corners, crossed, swept[:, None], squares, product], dim=1
+        ).sum(dim=2)
+        length, signed, absolute, sharpness, cornered, crossings, area, sum_xx, sum_yy, sum_xy = summed.split(
+            1, dim=1
+        )
+        still = (length == 0).float()
+        length = length + still
+        xx, yy, xy = (total * (1 / POINTS) for total in (sum_xx, sum_yy, sum_xy))
         half = torch.sqrt(0.25 * (xx - yy) ** 2 + xy * xy)
-        greater = 0.5 * (xx + yy) + half + 1e-9
-        lesser = torch.clamp(0.5 * (xx + yy) - half, min=0.0) + 1e-5
-        # Squared radius once both spreads are made 1: by the inverse of the covariance, a straight line's too.
+        mean = 0.5 * (xx + yy)
+        narrow = torch.sqrt((torch.relu(mean - half) + 1e-5) / (mean + half + 1e-9))
+        # Radius once both spreads are made 1: by the inverse of the covariance, a straight line's too.
         least = RULE.thinnest * (xx + yy) + 1e-6
-        thick_x, thick_y = xx + least, yy + least
-        white = thick_y[:, None] * x * x + thick_x[:, None] * y * y - 2 * xy[:, None] * x * y
-        white = white / (thick_x * thick_y - xy * xy + 1e-12)[:, None]
-        whitened = torch.sqrt(torch.clamp(white, min=0.0) + 1e-6)
-        white_mean = whitened.mean(dim=1)
-        white_spread = torch.sqrt(((whitened - white_mean[:, None]) ** 2).mean(dim=1) + 1e-9)
-        spread = torch.sqrt(((radius - mean_radius[:, None]) ** 2).mean(dim=1) + 1e-9)
-        # Shoelace about the centroid; the closing side counts too.
-        area = 0.5 * ((x[:, :-1] * y[:, 1:] - y[:, :-1] * x[:, 1:]).sum(dim=1) + x[:, -1] * y[:, 0] - y[:, -1] * x[:, 0])
+        thick = torch.cat([yy + least, xx + least], dim=1)
+        white = (squares * thick[:, :, None]).sum(dim=1) - 2 * xy * product[:, 0]
+        white = white / (thick[:, :1] * thick[:, 1:] - xy * xy + 1e-12)
+        whitened = torch.sqrt(torch.relu(white) + 1e-6)
+        radii = torch.stack([radius[:, 0], whitened], dim=1)
+        mean_radii = radii.mean(dim=2, keepdim=True)
+        spread = torch.sqrt(((radii - mean_radii) ** 2).mean(dim=2) + 1e-9) / (mean_radii[:, :, 0] + 1e-9)
         shadow = middle.transpose(1, 2) @ self.support
-        hull = np.pi * (shadow.amax(dim=1) - shadow.amin(dim=1)).mean(dim=1)
-        from_start = vectors[:, :, 2 * spans + 2]
+        hull = np.pi * (shadow.amax(dim=1) - shadow.amin(dim=1)).mean(dim=1, keepdim=True)
         end = from_start[:, :, -1:]
-        beside = (end[:, 0] * from_start[:, 1] - end[:, 1] * from_start[:, 0]).abs().amax(dim=1)
+        beside = _cross(end, from_start).abs().amax(dim=1, keepdim=True)
+        chord = away[:, 1, -1:]
         quarter = POINTS // 4
         gap = middle[:, :, :quarter, None] - middle[:, :, None, -quarter:]
-        closing = torch.sqrt((gap * gap).sum(dim=1).flatten(1).amin(dim=1))
-        signed, absolute = turn.sum(dim=1).abs(), turn.abs().sum(dim=1)
-        drawn = torch.stack(
+        closing = torch.sqrt((gap * gap).sum(dim=1).amin(dim=(1, 2)))[:, None]
+        turning = signed.abs()
+        drawn = torch.cat(
             [
                 chord / length,
                 chord,
                 torch.log(length),
-                torch.sqrt(lesser / greater),
-                signed * (1 / (2 * np.pi)),
+                narrow,
+                turning * (1 / (2 * np.pi)),
                 absolute * (1 / (2 * np.pi)),
-                signed / (absolute + 0.1),
-                sharp[:, 0].sum(dim=1) * (1 / 8),
-                torch.relu(sharp[:, 1] - RULE.corner).sum(dim=1) * (1 / 8),
-                sharp[:, 1].amax(dim=1),
-                torch.log1p(0.5 * crossed.sum(dim=1)),
-                4 * np.pi * area.abs() / length**2,
+                turning / (absolute + 0.1),
+                sharpness * (1 / 8),
+                cornered * (1 / 8),
+                sharp[:, 1].amax(dim=1, keepdim=True),
+                torch.log1p(0.5 * crossings),
+                2 * np.pi * area.abs() / (length * length),
                 length / (hull + still),
-                spread / (mean_radius + still),
-                white_spread / white_mean,
-                beside / (chord + 0.05) / length,
+                spread,
+                beside / ((chord + 0.05) * length),
                 closing / length,
             ],
             dim=1,
         )
-        few = torch.clamp(distinct, max=RULE.few_points) * (1 / RULE.few_points)
-        drawn = torch.clamp(drawn, -6.0, 6.0) * moving[:, None]
-        return torch.cat([drawn, few[:, None], still[:, None]], dim=1)
+        few = torch.clamp(distinct[:, None], max=RULE.few_points) * (1 / RULE.few_points)
+        return torch.cat([torch.clamp(drawn, -6.0, 6.0) * (1.0 - still), few, still], dim=1)
+
+
+def _cross(one: Tensor, other: Tensor) -> Tensor:
+    """Cross products of vectors (B, 2, …) -> (B, …)."""
+    return one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
 
 
 def backwards(sequence: Tensor) -> Tensor:

@@ -52,9 +52,7 @@ class StrokeEncoder(nn.Module):
             *_layer(size.width, wide, span=5, stride=2),
             *_layer(wide, wide, span=3, stride=1),
         )
-        self.overall = nn.Sequential(
-            nn.BatchNorm1d(len(WHOLE)), nn.Linear(len(WHOLE), size.width), nn.ReLU()
-        )
+        self.overall = nn.Sequential(nn.BatchNorm1d(len(WHOLE)), nn.Linear(len(WHOLE), size.width), nn.ReLU())
         self.joined = nn.Sequential(nn.Linear(2 * wide + size.width, size.stroke), nn.ReLU())
 
     def forward(self, sequence: Tensor, whole: Tensor) -> Tensor:
@@ -83,6 +81,11 @@ class Round(nn.Module):
             nn.Linear(size.stroke + size.message, size.stroke), nn.ReLU(), nn.Linear(size.stroke, size.stroke)
         )
 
+    def unheard(self, strokes: Tensor) -> Tensor:
+        """The same for strokes (…, stroke) that have no company."""
+        silence = torch.zeros_like(strokes[..., : self.own.out_features])
+        return strokes + self.taken(torch.cat([strokes, silence], dim=-1))
+
     def forward(self, strokes: Tensor, relations: Tensor, company: Tensor) -> tuple[Tensor, Tensor]:
         message = torch.relu(
             self.own(strokes)[:, :, None] + self.other(strokes)[:, None] + self.between(relations)
@@ -104,7 +107,9 @@ class PageNet(nn.Module):
         self.standing = nn.Linear(STANDING, size.stroke)
         self.rounds = nn.ModuleList(Round(size) for _ in range(size.rounds))
         self.judge = nn.Sequential(
-            nn.Linear(size.stroke, size.stroke), nn.ReLU(), nn.Dropout(size.dropout),
+            nn.Linear(size.stroke, size.stroke),
+            nn.ReLU(),
+            nn.Dropout(size.dropout),
             nn.Linear(size.stroke, len(STROKE_KINDS) + 1),
         )
         self.pairing = nn.Linear(size.message, 1)
@@ -122,6 +127,14 @@ class PageNet(nn.Module):
         answer = self.judge(strokes)
         together = self.pairing(message + message.transpose(1, 2))[..., 0]
         return answer[..., :-1], answer[..., -1], together
+
+    def alone(self, encoded: Tensor) -> tuple[Tensor, Tensor]:
+        """The same for strokes (s, stroke) each of which is its page's only one: kinds (s, 9), none of them (s,)."""
+        strokes = encoded + self.standing.bias
+        for look in self.rounds:
+            strokes = look.unheard(strokes)
+        answer = self.judge(strokes)
+        return answer[:, :-1], answer[:, -1]
 
 
 def parameters_of(net: nn.Module) -> int:

@@ -36,5 +36,3 @@ def progress(console: Console) -> Generator[Tell]:
             bars.update(stages[stage], completed=share, note=note)
 
         yield draw
-
-

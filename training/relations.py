@@ -14,6 +14,7 @@ from torch import Tensor, nn
 
 from training.features import POINTS
 
+
 def _spread(count: int) -> list[int]:
     return np.round(np.linspace(0, POINTS - 1, count)).astype(int).tolist()
 
@@ -66,19 +67,22 @@ class Relations(nn.Module):
         # From each end of the one to the whole of the other; to its two ends; from the whole to the whole.
         at_path = _between(ends, sketched).amin(dim=4)
         at_ends = _between(ends, ends)
-        straight = torch.maximum(at_ends[..., 0, 0], at_ends[..., 1, 1])
-        crosswise = torch.maximum(at_ends[..., 0, 1], at_ends[..., 1, 0])
-        nearest = _between(rough, rough).flatten(3).amin(dim=3)
-        touching = torch.stack([at_path.amin(dim=3), at_path.amax(dim=3)], dim=3)
-        distances = torch.cat(
+        straight = torch.maximum(at_ends[:, :, 0, :, 0], at_ends[:, :, 1, :, 1])
+        crosswise = torch.maximum(at_ends[:, :, 0, :, 1], at_ends[:, :, 1, :, 0])
+        nearer, farther = at_path.amin(dim=2), at_path.amax(dim=2)
+        distances = torch.stack(
             [
-                touching,
-                touching.transpose(1, 2),
-                torch.stack([at_ends.flatten(3).amin(dim=3), torch.minimum(straight, crosswise), nearest], dim=3),
+                nearer,
+                farther,
+                nearer.transpose(1, 2),
+                farther.transpose(1, 2),
+                at_ends.amin(dim=(2, 4)),
+                torch.minimum(straight, crosswise),
+                _between(rough, rough).amin(dim=(2, 4)),
             ],
             dim=3,
         )
-        relative = torch.sqrt(distances) / scale[..., None]
+        relative = torch.sqrt(distances).to(paths.dtype) / scale[..., None]
         closeness = [reach / (reach + relative) for reach in RULE.near]
         # Reach in twelve directions: one stroke encloses another where it reaches further in all of them.
         reach = (sketched @ self.support).amax(dim=2)
@@ -86,12 +90,18 @@ class Relations(nn.Module):
         centre = 0.5 * (low + high)
         offset = (centre[:, None] - centre[:, :, None]) / scale[..., None]
         away = torch.sqrt((offset * offset).sum(dim=3))
-        overlap = (torch.minimum(high[:, :, None], high[:, None]) - torch.maximum(low[:, :, None], low[:, None]))
-        shared = overlap / (torch.minimum((high - low)[:, :, None], (high - low)[:, None]) + 0.1 * scale[..., None])
+        overlap = torch.minimum(high[:, :, None], high[:, None]) - torch.maximum(
+            low[:, :, None], low[:, None]
+        )
+        shared = overlap / (
+            torch.minimum((high - low)[:, :, None], (high - low)[:, None]) + 0.1 * scale[..., None]
+        )
         rank = torch.arange(count, dtype=paths.dtype)
         later = (rank[None, :] - rank[:, None]).expand(pages, count, count)
         known = timed[:, :, None] * timed[:, None, :]
-        pause = torch.maximum(span[:, None, :, 0] - span[:, :, None, 1], span[:, :, None, 0] - span[:, None, :, 1])
+        pause = torch.maximum(
+            span[:, None, :, 0] - span[:, :, None, 1], span[:, :, None, 0] - span[:, None, :, 1]
+        )
         waited = torch.relu(pause).to(paths.dtype) * known
         plain = torch.stack(
             [
@@ -114,33 +124,30 @@ class Relations(nn.Module):
         )
 
 
-def frames(paths: Tensor, same: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+def own_frame(paths: Tensor) -> Tensor:
+    """paths (B, 64, 2) in any frame -> float32 in each stroke's own; a path that never moved is all zeros."""
+    low, high = paths.amin(dim=1, keepdim=True), paths.amax(dim=1, keepdim=True)
+    size = torch.sqrt(((high - low) ** 2).sum(dim=2, keepdim=True))
+    return ((paths - 0.5 * (low + high)) / torch.where(size > 0, size, 1.0)).float()
+
+
+def page_frame(paths: Tensor, same: Tensor) -> tuple[Tensor, Tensor]:
     """paths (P, N, 64, 2) in any frame and which strokes share a page (P, N, N), each with itself too -> float32
-    paths in their own frames, paths in their pages' frames, and how each stands on its page (P, N, 2): whether
-    it has company, and the logarithm of its size over the page's. A path that never moved is all zeros."""
+    paths in their pages' frames, and how each stroke stands on its page (P, N, 2): whether it has company, and
+    the logarithm of its size over the page's."""
     low, high = paths.amin(dim=2), paths.amax(dim=2)
-    far = torch.finfo(paths.dtype).max
+    far = torch.finfo(paths.dtype).max / 4
     there = same[..., None]
     page_low = torch.where(there, low[:, None], far).amin(dim=2)
     page_high = torch.where(there, high[:, None], -far).amax(dim=2)
-    size, whole = _diagonal(high - low), _diagonal(page_high - page_low)
-    own = (paths - _middle(low, high)) / _positive(size)
-    on_page = (paths - _middle(page_low, page_high)) / _positive(whole)
+    size = torch.sqrt(((high - low) ** 2).sum(dim=2))
+    whole = torch.sqrt(((page_high - page_low) ** 2).sum(dim=2))
+    whole = torch.where(whole > 0, whole, 1.0)
+    middle = (0.5 * (page_low + page_high))[:, :, None]
+    on_page = (paths - middle) / whole[:, :, None, None]
     company = (same.sum(dim=2) > 1).float()
-    relative = torch.log(torch.clamp(size / torch.where(whole > 0, whole, 1.0), min=RULE.smallest)).float()
-    return own.float(), on_page.float(), torch.stack([company, relative * company / 3.0], dim=2)
-
-
-def _diagonal(extent: Tensor) -> Tensor:
-    return torch.sqrt((extent * extent).sum(dim=2))
-
-
-def _middle(low: Tensor, high: Tensor) -> Tensor:
-    return (0.5 * (low + high))[:, :, None]
-
-
-def _positive(size: Tensor) -> Tensor:
-    return torch.where(size > 0, size, 1.0)[:, :, None, None]
+    relative = torch.log(torch.clamp(size / whole, min=RULE.smallest)).float()
+    return on_page.float(), torch.stack([company, relative * company / 3.0], dim=2)
 
 
 def _next(later: Tensor, by: float) -> Tensor:
@@ -148,7 +155,11 @@ def _next(later: Tensor, by: float) -> Tensor:
 
 
 def _between(one: Tensor, other: Tensor) -> Tensor:
-    """Squared distances between all points of all pairs: (P, N, a, 2), (P, N, b, 2) -> (P, N, N, a, b)."""
-    x = one[:, :, None, :, None, 0] - other[:, None, :, None, :, 0]
-    y = one[:, :, None, :, None, 1] - other[:, None, :, None, :, 1]
-    return x * x + y * y
+    """Squared distances between all points of all pairs: (P, N, a, 2), (P, N, b, 2) -> (P, N, a, N, b), as one
+    product of matrices, in doubles: |p|² − 2 p·q + |q|² cancels where the points meet."""
+    pages, count, here = one.shape[0], one.shape[1], one.shape[2]
+    p, q = one.double().flatten(1, 2), other.double().flatten(1, 2)
+    left = torch.cat([-2.0 * p, (p * p).sum(dim=2, keepdim=True), torch.ones_like(p[..., :1])], dim=2)
+    right = torch.cat([q, torch.ones_like(q[..., :1]), (q * q).sum(dim=2, keepdim=True)], dim=2)
+    squares = torch.relu(left @ right.transpose(1, 2))
+    return squares.reshape(pages, count, here, count, other.shape[2])

@@ -23,7 +23,13 @@ from sketch.page import STROKE_KINDS, StrokeKind
 
 WEIGHTS = Path(__file__).parent / "weights" / "strokes.onnx"
 
-INPUTS = {"points": (2, "double"), "times": (1, "double"), "stroke": (1, "int64"), "page": (1, "int64"), "timed": (1, "float")}
+INPUTS = {
+    "points": (2, "double"),
+    "times": (1, "double"),
+    "stroke": (1, "int64"),
+    "page": (1, "int64"),
+    "timed": (1, "float"),
+}
 """Inputs of the ONNX file: number of axes and type of each; README.md beside this file says what they hold."""
 
 BOUND = 0.05
@@ -106,7 +112,9 @@ def _session(weights: Path) -> tuple[Any, float]:
             f"{weights} answers for the kinds {recipe.get('kinds')}; needed are {list(STROKE_KINDS)}. "
             "Train it again with `inklined train`."
         )
-    taken = {entry.name: (len(entry.shape), entry.type[len("tensor(") : -1]) for entry in session.get_inputs()}
+    taken = {
+        entry.name: (len(entry.shape), entry.type[len("tensor(") : -1]) for entry in session.get_inputs()
+    }
     if taken != INPUTS:
         raise WeightsError(
             f"{weights} takes {taken}; this version gives {INPUTS}. Train it again with `inklined train`."
