@@ -140,14 +140,16 @@ def say(net: PageNet, corpus: Corpus) -> Said:
             parts += answers(net, looked, relations, batch)
     there = [one.pages.there for one in parts]
     pairs = [_pairs(one) for one in parts if one.kinds.shape[1] > 1]
-    none = torch.zeros(0)
+    order = torch.argsort(torch.cat([one.pages.rows[t] for one, t in zip(parts, there, strict=True)]))
+    logits = torch.cat([one.kinds[t] for one, t in zip(parts, there, strict=True)])
+    strange = torch.cat([one.strange[t] for one, t in zip(parts, there, strict=True)])
     return Said(
-        torch.cat([one.kinds[t] for one, t in zip(parts, there, strict=True)]).numpy(),
-        torch.cat([one.strange[t] for one, t in zip(parts, there, strict=True)]).numpy(),
-        torch.cat([one.pages.kind[t] for one, t in zip(parts, there, strict=True)]).numpy(),
-        torch.cat([(t.sum(dim=1, keepdim=True) == 1).expand(t.shape)[t] for t in there]).numpy(),
-        torch.cat([logits for logits, _ in pairs] or [none]).numpy(),
-        torch.cat([truth for _, truth in pairs] or [none]).numpy(),
+        logits[order].numpy(),
+        strange[order].numpy(),
+        corpus.kind,
+        np.repeat(corpus.sizes == 1, corpus.sizes),
+        torch.cat([said for said, _ in pairs] or [torch.zeros(0)]).numpy(),
+        torch.cat([truth for _, truth in pairs] or [torch.zeros(0)]).numpy(),
     )
 
 
