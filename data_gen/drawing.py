@@ -52,6 +52,8 @@ class DrawingRule:
     """How much nearness counts against sticking out when the eye looks for a corner: hooks are not one."""
     zigzag_uneven: float = 0.12
     """Standard deviation of the logarithm of a tooth's size and advance."""
+    arcs: float = 0.25
+    """Share of rings in two arcs among writers who always lift the pen within boxes."""
     upright: float = 0.75
     """Share of loops begun near the top (circles) or at the top left (polygons)."""
     mid_side: float = 0.08
@@ -67,7 +69,7 @@ def paths(shape: Shape, writer: Writer, rng: np.random.Generator) -> list[FloatA
     """The strokes that the writer means for the shape, in drawing order."""
     match shape:
         case Circle():
-            return [_circle(shape, writer, rng)]
+            return _in_arcs(_circle(shape, writer, rng), writer, rng)
         case Polygon():
             return _polygon(shape, writer, rng)
         case Spring():
@@ -142,6 +144,15 @@ def _circle(shape: Circle, writer: Writer, rng: np.random.Generator) -> FloatArr
     sweep = way * 2 * np.pi * (1 + _closing(2 * np.pi * shape.radius, writer, rng))
     radii = (shape.radius * oval, shape.radius / oval)
     return ideals.superellipse((float(centre[0]), float(centre[1])), radii, float(start), sweep)
+
+
+def _in_arcs(path: FloatArray, writer: Writer, rng: np.random.Generator) -> list[FloatArray]:
+    """Few who lift the pen within boxes do so within rings: two arcs, the second from either end."""
+    lifted, cut, again = rng.random(3).tolist()
+    if lifted >= RULE.arcs * writer.pieces:
+        return [path]
+    at = int(len(path) * (0.35 + 0.3 * cut))
+    return [path[: at + 1], path[at:] if again < 0.5 else path[at:][::-1]]
 
 
 def _polygon(shape: Polygon, writer: Writer, rng: np.random.Generator) -> list[FloatArray]:

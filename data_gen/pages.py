@@ -15,6 +15,7 @@ from typing import Literal, assert_never
 import numpy as np
 
 from data_gen import drawing, layout, typeset
+from data_gen.clutter import Clutter, clutter
 from data_gen.diagrams.problem import Expected, Problem
 from data_gen.hand.batch import LOOSE
 from data_gen.pen import draw_each
@@ -68,16 +69,22 @@ class Page:
     writer: Writer
 
 
-def page(name: str, seed: int, index: int, answer: str = "right") -> Page:
+def page(name: str, seed: int, index: int, answer: str = "right", cluttered: bool = False) -> Page:
     """The diagram `name` with an answer, drawn by a random writer; always the same for the same arguments.
+    cluttered: with stray marks and crossings-out, whose strokes the truth gives to nobody.
 
     Raises ValueError on a name or an answer that is not known, or a negative seed or index.
     """
-    return drawn(name, seed, index, answer, lambda rng: problem(name, answer, rng))
+    return drawn(name, seed, index, answer, lambda rng: problem(name, answer, rng), cluttered)
 
 
 def drawn(
-    name: str, seed: int, index: int, answer: str, meant_by: Callable[[np.random.Generator], Problem]
+    name: str,
+    seed: int,
+    index: int,
+    answer: str,
+    meant_by: Callable[[np.random.Generator], Problem],
+    cluttered: bool = False,
 ) -> Page:
     """A diagram of that name drawn by a random writer. meant_by: what is drawn, from the page's own generator.
 
@@ -88,15 +95,17 @@ def drawn(
     rng = np.random.default_rng([seed, index])
     writer = sample_writer(rng)
     meant = meant_by(rng)
-    return Page(name, answer, seed, index, _inked(meant, writer, rng), meant.seconds, meant.expected, writer)
+    stray = clutter(writer.height, rng) if cluttered else []
+    truth = _inked(meant, stray, writer, rng)
+    return Page(name, answer, seed, index, truth, meant.seconds, meant.expected, writer)
 
 
-def pages(count: int, seed: int, start: int = 0) -> Iterator[Page]:
+def pages(count: int, seed: int, start: int = 0, cluttered: bool = False) -> Iterator[Page]:
     """Pages start … start + count − 1 of a seed: the six diagrams in turn, and each through its answers."""
     for index in range(start, start + count):
         turn, which = divmod(index, len(PROBLEMS))
         name = PROBLEMS[which]
-        yield page(name, seed, index, ANSWERS[name][turn % len(ANSWERS[name])])
+        yield page(name, seed, index, ANSWERS[name][turn % len(ANSWERS[name])], cluttered)
 
 
 def meaning(meant: Problem, places: Sequence[Point | None] = ()) -> Sketch:
@@ -130,21 +139,22 @@ def _steadied(writer: Writer, component: Component) -> Writer:
 
 @dataclass(frozen=True, slots=True)
 class _Thing:
-    """What is drawn in one go: a component, a tap or a line of mathematics, by its number."""
+    """What is drawn in one go: a component, a tap, a line of mathematics, a stray mark or a crossed-out sign."""
 
-    role: Literal["component", "tap", "line"]
+    role: Literal["component", "tap", "line", "stray", "crossed"]
     number: int
     paths: Sequence[FloatArray]
     writer: Writer
     strokes: Sequence[Stroke] = ()
 
 
-def _inked(meant: Problem, writer: Writer, rng: np.random.Generator) -> Sketch:
+def _inked(meant: Problem, stray: Sequence[Clutter], writer: Writer, rng: np.random.Generator) -> Sketch:
     """The truth with ink: draws everything thing by thing, and notes whose each stroke is."""
     hand = typeset.hand(writer, rng)
     lines = [typeset.line(remark.text, hand) for remark in meant.remarks]
     wishes = [remark.about[0][1] if remark.about else None for remark in meant.remarks]
-    sizes = [_size(line) for line in lines]
+    sizes = [_size(line) for line in (*lines, *(piece.paths for piece in stray))]
+    wishes += [None] * len(stray)
     places = layout.place(sizes, wishes, meant.components, writer.height, rng)
     dots, letters = replace(writer, hooks=0.0), replace(writer, wobble=LOOSE * writer.wobble)
 
@@ -176,10 +186,18 @@ def _inked(meant: Problem, writer: Writer, rng: np.random.Generator) -> Sketch:
     ]
     mathematics = [
         _Thing("line", number, [path + centre for path in line], letters)
-        for number, (line, centre) in enumerate(zip(lines, places, strict=True))
+        for number, (line, centre) in enumerate(zip(lines, places, strict=False))
     ]
+    mathematics += [
+        _Thing(
+            "crossed" if piece.crossed else "stray", number, [path + centre for path in piece.paths], letters
+        )
+        for number, (piece, centre) in enumerate(zip(stray, places[len(lines) :], strict=True))
+    ]
+    if stray:
+        mathematics = [mathematics[k] for k in rng.permutation(len(mathematics))]
     rest = _with_ink([*links, *taps, *mathematics], rng)
-    return _owned(meaning(meant, places), _in_drawing_order([*solids, *rest], meant, rng), rng)
+    return _owned(meaning(meant, places[: len(lines)]), _in_drawing_order([*solids, *rest], meant, rng), rng)
 
 
 def _size(line: Sequence[FloatArray]) -> layout.Size:
@@ -199,7 +217,7 @@ def _in_drawing_order(things: Sequence[_Thing], meant: Problem, rng: np.random.G
     """Shapes, taps, mathematics: roughly in this order, differently from page to page."""
     shapes = [thing for thing in things if thing.role == "component"]
     taps = [thing for thing in things if thing.role == "tap"]
-    mathematics = [thing for thing in things if thing.role == "line"]
+    mathematics = [thing for thing in things if thing.role not in ("component", "tap")]
     shuffled = [shapes[k] for k in rng.permutation(len(shapes))]
     held_first, at_once, last = rng.random(3) < [RULE.held_first, RULE.tapped_at_once, RULE.mathematics_last]
     if held_first:
@@ -233,6 +251,10 @@ def _owned(truth: Sketch, things: Sequence[_Thing], rng: np.random.Generator) ->
                 gestures.extend(Gesture("tap", stroke) for stroke in owned)
             case "line":
                 expressions[thing.number] = replace(expressions[thing.number], strokes=owned)
+            case "crossed":
+                gestures.append(Gesture("scribble", owned[-1]))
+            case "stray":
+                pass
             case _:
                 assert_never(thing.role)
     return replace(

@@ -38,7 +38,7 @@ def draw_each(
         np.array([np.concatenate([path.min(axis=0), path.max(axis=0)]) for path in paths]),
         habits_of(writers),
         keys,
-        np.zeros(len(paths), dtype=np.bool_),
+        np.zeros(len(paths), dtype=np.int64),
         on,
     )
     return [

@@ -96,7 +96,7 @@ LAWS = ("uniform", "log-uniform", "normal", "log-normal", "pick")
 ADULT: Mapping[str, Spread] = {
     "slant": Spread("normal", 0.08, 0.13),
     "stretch": Spread("normal", 0.0, 0.15),
-    "wobble": Spread("log-normal", 0.008, 0.55),
+    "wobble": Spread("log-normal", 0.0095, 0.5),
     "tremor": Spread("log-normal", 0.0006, 0.7),
     "shake": Spread("uniform", 8.0, 12.0),
     "overlap": Spread("uniform", 0.05, 0.45),

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from data_gen.hand.chance import Key, split, uniform
 from data_gen.hand.names import MISSING, SPARSE
-from data_gen.hand.person import GRID, HOOKED, UNPRESSED, UNTIMED, WOBBLING
+from data_gen.hand.person import GRID, HOOKED, NOISE, UNPRESSED, UNTIMED, WOBBLING
 from physics.jit import part
 from sketch.ink import FloatArray
 
@@ -22,11 +22,15 @@ CIRCLE, POLYGON, SPRING, WIRE, ARROW, TAP, SCRIBBLE, LASSO, MATH, DOODLE, PART =
 
 TAP_GRID = 0.5
 """A resting pen's points are at least this coarse, page units, on a device that reports no smaller move,"""
-RESTING = 0.5
+RESTING = 0.6
 """and this share of taps comes from such a device; the others tremble from point to point."""
-LOOSE = 1.5
-"""Letters waver this much more than shapes, against their size: they are small and quick."""
-THIN = (0.2, 0.05, 0.02, 0.04, 0.04, 0.0, 0.0, 0.03, 0.03, 0.03, 0.0)
+LOOSE = 0.8
+"""Letters waver this much of what shapes do, against their size: they are practised."""
+ROUND = 1.35
+"""A pen wavers this much more on its way around a closed shape: it is the longest way to keep in mind."""
+STRAIGHT = 0.35
+"""A pen wavers this much less along one straight line: the simplest movement is the steadiest."""
+THIN = (0.2, 0.05, 0.02, 0.04, 0.04, 0.6, 0.0, 0.03, 0.03, 0.03, 0.0)
 """Share of single strokes of a kind that a busy device sees at a few points only."""
 REST = 1005
 """The name under which a tap's device is split off."""
@@ -35,7 +39,7 @@ REST = 1005
 class Drawings(NamedTuple):
     """points (P, 2), page units; ends (S,): where each stroke ends among the points; items (N,): where each
     drawing ends among the strokes; labels (N, 2): kind and count; habits (N, habits); keys (N,); frames (N, 4):
-    low x, low y, high x, high y; thin (N,): seen at few points; known (N, 2): whether times, pressure are."""
+    low x, low y, high x, high y; thin (N,): how few points are seen, see `pen`; known (N, 2): whether times, pressure are."""
 
     points: FloatArray
     ends: Indices
@@ -44,7 +48,7 @@ class Drawings(NamedTuple):
     habits: FloatArray
     keys: NDArray[np.uint64]
     frames: FloatArray
-    thin: Mask
+    thin: Indices
     known: Mask
 
 
@@ -59,7 +63,7 @@ def blank(count: int, habits: int) -> Drawings:
         np.zeros((count, habits)),
         np.zeros(count, dtype=np.uint64),
         np.zeros((count, 4)),
-        np.zeros(count, dtype=np.bool_),
+        np.zeros(count, dtype=np.int64),
         np.ones((count, 2), dtype=np.bool_),
     )
 
@@ -100,7 +104,10 @@ def put(
     if on[MISSING]:
         batch.known[number, 0], batch.known[number, 1] = habits[UNTIMED] <= 0, habits[UNPRESSED] <= 0
     single = len(path_ends) == 1
-    batch.thin[number] = on[SPARSE] and single and uniform(split(key, SPARSE)) < THIN[kind]
+    if on[SPARSE] and single and uniform(split(key, SPARSE)) < THIN[kind]:
+        batch.thin[number] = 3 if kind == TAP else 1
+        if kind == TAP:
+            batch.habits[number, NOISE] = batch.habits[number, WOBBLING] = 0.0
     return Drawings(
         points,
         ends,
@@ -126,14 +133,19 @@ def set_frame(points: FloatArray, frame: FloatArray) -> None:
 
 @part
 def _settle(kind: int, key: Key, frame: FloatArray, habits: FloatArray) -> None:
-    """Fits the habits to the drawing. Letters waver more; a pen wavers less along polygons that are thin, since
+    """Fits the habits to the drawing. Letters and lines waver less; so does a pen along polygons that are thin, since
     the eye sees both of their long sides; a tap has no hooks, and rests."""
     if kind in (MATH, PART, DOODLE):
         habits[WOBBLING] *= LOOSE
+    elif kind == CIRCLE:
+        habits[WOBBLING] *= ROUND
     elif kind == POLYGON:
         width, height = frame[2] - frame[0], frame[3] - frame[1]
-        habits[WOBBLING] *= min(1.0, (2 * width * height) ** 0.5 / max(hypot(width, height), 1e-9))
+        habits[WOBBLING] *= ROUND * min(1.0, (2 * width * height) ** 0.5 / max(hypot(width, height), 1e-9))
+    elif kind == WIRE:
+        habits[WOBBLING] *= STRAIGHT
     elif kind == TAP:
         habits[HOOKED] = 0.0
         if uniform(split(key, REST)) < RESTING:
+            habits[NOISE] = 0.0
             habits[GRID] = max(habits[GRID], TAP_GRID)

@@ -44,11 +44,11 @@ Drawing = tuple[FloatArray, NDArray[np.int64], int]
 SHAPE, PARTS = 1001, 1002
 """Names under which a family's random numbers are split off: of the shape, and of its strokes."""
 
-ASPECT_SPREAD = 0.27
-"""Standard deviation of log(width / height) of circles; one in seven is nearly twice as slim."""
-TOP = 0.72
-"""Share of rings and polygons begun at the top (van Sommers 1984: 70 to 80 % of adults)."""
-ANTICLOCKWISE = 0.72
+ASPECT_SPREAD = 0.2
+"""Standard deviation of log(width / height) of circles; one in eight is more than twice as slim."""
+TOP = 0.92
+"""Share of rings and polygons begun at the top (van Sommers 1984: most adults)."""
+ANTICLOCKWISE = 0.9
 """Share of rings and polygons drawn anti-clockwise: the right-hander's and the school's way."""
 TAILED = 0.14
 """Share of closed shapes whose pen runs on past the closure."""
@@ -62,13 +62,13 @@ OVERSHOT = 0.025
 def circle(key: Key, habits: FloatArray, on: NDArray[np.bool_], several: bool) -> Drawing:
     """Ovals, eggs, slightly boxy or spiralling ones; in two arcs, or with a hub as pulleys have."""
     r = split(key, SHAPE)
-    slim = 1.8 if uniform(r) < 0.15 else 1.0
+    slim = 2.4 if uniform(r) < 0.12 else 1.0
     aspect = exp(ASPECT_SPREAD * slim * normal(r) + 0.05) if on[ASPECT] else 1.0
     way = split(key, DIRECTION)
     at_top, near, anywhere, sense = uniform(way) < TOP, normal(way), 2 * pi * uniform(way), uniform(way)
     start = -pi / 2
     if on[DIRECTION]:
-        start = start + 0.1 + 0.4 * near if at_top else anywhere
+        start = start + 0.3 + 0.42 * near if at_top else anywhere
     clockwise = on[DIRECTION] and sense > ANTICLOCKWISE
     error = closing(key, habits, on, 0.01)
     squareness, egg, spiral = _roundness(key, on)
@@ -143,6 +143,8 @@ def convex(key: Key, habits: FloatArray, on: NDArray[np.bool_], several: bool) -
     way = split(key, DIRECTION)
     at_top, anywhere, sense = uniform(way) < TOP, int(count * uniform(way)), uniform(way)
     mid_side, share = uniform(way) < 0.08, between(way, 0.15, 0.85)
+    # Too long a last side goes straight on, or round the corner once more.
+    straight_on = uniform(way) < 0.75
     first = 0
     for k in range(count):
         if corners[k, 1] + 0.35 * corners[k, 0] < corners[first, 1] + 0.35 * corners[first, 0]:
@@ -157,7 +159,14 @@ def convex(key: Key, habits: FloatArray, on: NDArray[np.bool_], several: bool) -
         points, ends = _in_pieces(loop, key, on)
         return points, ends, count
     start = share if on[DIRECTION] and mid_side else 0.0
-    path = polygon(loop, start, max(-0.13, closing(key, habits, on, 0.0)))
+    error = max(-0.13, closing(key, habits, on, 0.012))
+    if error > 0 and straight_on:
+        path = polygon(loop, start, 0.0)
+        x, y = path[-1, 0] - path[-2, 0], path[-1, 1] - path[-2, 1]
+        path[-1, 0] += 2 * error * x
+        path[-1, 1] += 2 * error * y
+    else:
+        path = polygon(loop, start, error)
     points, ends = one(with_tail(_bent(path, key, on), key, on))
     return points, ends, count
 
@@ -177,15 +186,15 @@ def _corners(key: Key, habits: FloatArray, on: NDArray[np.bool_]) -> FloatArray:
     """Corners of a triangle, rectangle, plank, rhombus, parallelogram, trapezium or general convex polygon."""
     r = split(key, SHAPE)
     which, u = uniform(r), uniform(r)
-    stretch = exp(0.42 * normal(r)) if on[ASPECT] else 1.0
+    stretch = exp(0.34 * normal(r)) if on[ASPECT] else 1.0
     if which < 0.42:
         corners = np.zeros((3, 2))
         corners[0, 0], corners[1, 0] = -0.5, 0.5
-        lean = 0.22 * normal(r) if u > 0.3 else (-0.5 if u < 0.15 else 0.5)
+        lean = 0.16 * normal(r) if u > 0.25 else (-0.5 if u < 0.125 else 0.5)
         corners[2, 0], corners[2, 1] = lean, -0.85 / stretch
     elif which < 0.84:
-        # One rectangle in eight is a plank: a floor, a shelf, a beam of up to 25:1.
-        if u < 0.125:
+        # One rectangle in twelve is a plank: a floor, a shelf, a beam of up to 25:1.
+        if u < 0.08:
             stretch = exp(1.5 + 1.7 * uniform(r))
         elif on[ASPECT]:
             stretch *= 1.25

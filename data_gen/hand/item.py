@@ -40,7 +40,7 @@ WHERE = 1004
 """The name under which kind, size and place are split off."""
 SIZE = (30.0, 420.0)
 """Log-uniform range of a drawing's size, page units; with the pixel grid it sets how coarse ink is."""
-TAP_SIZE = (0.3, 3.0)
+TAP_SIZE = (0.6, 4.0)
 """The same for taps: a resting hand moves by a pixel or two."""
 SHEARED = 0.05
 """Standard deviation of the shear of shapes; letters have their writer's slant."""
@@ -76,13 +76,13 @@ def _meant(kind: int, key: Key, habits: FloatArray, on: Mask, several: bool, poo
     if kind == ARROW:
         return arrow(key, habits, on, several)
     if kind == TAP:
-        return tap(key, habits, on, several)
+        return tap(key)
     if kind == SCRIBBLE:
         return scribble(key, habits, on, several)
     if kind == LASSO:
         return lasso(key, habits, on, several)
     if kind == PART:
-        return letter_part(key, on, pools)
+        return letter_part(key, pools)
     return mathematics(key, habits, on, several, pools)
 
 
@@ -92,24 +92,26 @@ def _angle(kind: int, key: Key) -> float:
     r = split(key, ROTATION)
     u, z, any_way, quarter = uniform(r), normal(r), 2 * pi * uniform(r), pi / 2 * int(4 * uniform(r))
     if kind in (CIRCLE, LASSO):
-        return 0.25 * z if u < 0.75 else any_way
+        return 0.25 * z if u < 0.85 else any_way
     if kind == POLYGON:
-        return 0.05 * z if u < 0.85 else any_way
+        return 0.05 * z if u < 0.92 else any_way
     if kind == SPRING:
-        return -0.08 + 0.15 * z if u < 0.65 else (pi / 2 + 0.1 * z if u < 0.8 else any_way)
+        return -0.22 + 0.15 * z if u < 0.82 else (pi / 2 + 0.1 * z if u < 0.91 else any_way)
     if kind == WIRE:
-        if u < 0.35:
-            return -0.03 + 0.06 * z
-        if u < 0.6:
+        if u < 0.36:
+            return -0.05 + 0.06 * z
+        if u < 0.76:
             return pi / 2 + 0.08 * z
-        return pi / 4 * (1 if quarter < pi else -1) + 0.2 * z if u < 0.8 else any_way
+        return pi / 4 * (1 if quarter < pi else -1) + 0.2 * z if u < 0.93 else any_way
     if kind == ARROW:
         # Rising to the right, as templates of gestures have it; along an axis, as in flow charts; any way.
-        if u < 0.34:
-            return -0.6 + 0.22 * z
-        if u < 0.55:
-            return 0.08 * z
-        return quarter + 0.08 * z if u < 0.75 else any_way
+        if u < 0.36:
+            return -0.45 + 0.2 * z
+        if u < 0.7:
+            return 0.12 * z
+        if u < 0.82:
+            return pi / 2 + 0.08 * z
+        return quarter + 0.08 * z if u < 0.9 else any_way
     if kind in (MATH, PART, DOODLE):
         return 0.07 * z if u < 0.97 else 0.3 * z
     return any_way

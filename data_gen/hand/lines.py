@@ -20,11 +20,11 @@ from data_gen.hand.names import ASPECT, BACKTRACK, DIRECTION, PROPORTIONS, SIDES
 from physics.jit import part
 from sketch.ink import FloatArray
 
-ZIGZAG = 0.64
+ZIGZAG = 0.66
 """Share of springs drawn as zig-zags (rounded ones included), the rest are coils."""
 BACKTRACKS = 0.08
 """Share of wires whose end runs back on itself."""
-FORWARD = 0.7
+FORWARD = 0.92
 """Share of springs and wires drawn the way that one reads: left to right or downwards."""
 
 
@@ -32,12 +32,13 @@ FORWARD = 0.7
 def spring(key: Key, _habits: FloatArray, on: NDArray[np.bool_], several: bool) -> Drawing:
     """Zig-zags of five legs or more and coils of three loops or more, often with leads."""
     r = split(key, SHAPE)
-    lead = 0.0 if uniform(r) < 0.5 else 0.03 + 0.17 * uniform(r)
+    lead = 0.0 if uniform(r) < 0.68 else 0.03 + 0.17 * uniform(r)
     if several and lead == 0.0:
         lead = 0.12
-    zigzagged, count, wide, shape = uniform(r) < ZIGZAG, uniform(r), uniform(r), uniform(r)
+    zigzagged, count, shape = uniform(r) < ZIGZAG, uniform(r), uniform(r)
+    wide = (uniform(r) + uniform(r)) / 2  # the middling widths are the usual ones
     if zigzagged:
-        legs = 5 + int(9 * count**2.4)
+        legs = 5 + int(9 * count**3.2)
         path = _zigzag(legs, wide, lead, split(key, PROPORTIONS), on)
         if shape > 0.85 and legs >= 7:
             path = waved(path)
@@ -50,7 +51,7 @@ def spring(key: Key, _habits: FloatArray, on: NDArray[np.bool_], several: bool) 
         found = -loops
     way = split(key, DIRECTION)
     mirrored, forward = uniform(way), uniform(way)
-    if mirrored < (0.25 if zigzagged else 0.5) and on[DIRECTION]:
+    if mirrored < (0.12 if zigzagged else 0.5) and on[DIRECTION]:
         path = scaled(path, 1.0, -1.0)
     if forward > FORWARD and on[DIRECTION]:
         path = backwards(path)
@@ -67,8 +68,9 @@ def spring(key: Key, _habits: FloatArray, on: NDArray[np.bool_], several: bool) 
 @part
 def _zigzag(legs: int, wide: float, lead: float, r: State, on: NDArray[np.bool_]) -> FloatArray:
     """Teeth of uneven size; every other leg may be nearly upright, or even lean back; sizes may swell or fade."""
-    width = 0.14 * (0.95 / 0.14) ** (wide if on[ASPECT] else 0.5) * (6 / legs) ** 0.4
-    saw, lean, which, trend = uniform(r), 0.15 + 0.7 * uniform(r), int(2 * uniform(r)), 0.25 * normal(r)
+    width = 0.14 * (0.85 / 0.14) ** (wide if on[ASPECT] else 0.5) * (6 / legs) ** 0.4
+    saw, lean, trend = uniform(r), 0.15 + 0.7 * uniform(r), 0.25 * normal(r)
+    which = 1 if uniform(r) < 0.8 else 0  # the legs downwards are the steep ones, mostly
     spacing, heights = np.ones(legs), np.ones(legs - 1)
     if on[PROPORTIONS]:
         for k in range(legs):
@@ -106,7 +108,7 @@ def wire(key: Key, _habits: FloatArray, on: NDArray[np.bool_], several: bool) ->
     """Nearly straight strokes, sometimes with a run-back at the end; dashed or dotted in several strokes."""
     r = split(key, SIDES)
     bent = 2.2 if uniform(r) < 0.15 else 1.0
-    sag, skew = 0.022 * normal(r) * bent, 0.012 * normal(r)
+    sag, skew = 0.016 * normal(r) * bent, 0.009 * normal(r)
     path = np.empty((24, 2))
     for k in range(24):
         t = k / 23
@@ -147,7 +149,7 @@ def _dashes(path: FloatArray, r: State, on: NDArray[np.bool_]) -> Drawing:
 def arrow(key: Key, _habits: FloatArray, on: NDArray[np.bool_], several: bool) -> Drawing:
     """Arrows in one, two or three strokes: straight, bent or angular shaft, head open or closed, barbs uneven."""
     r = split(key, PROPORTIONS)
-    head, opening = 0.12 + 0.4 * uniform(r) ** 1.3, 0.3 + 0.75 * uniform(r)
+    head, opening = 0.16 + 0.38 * uniform(r), 0.3 + 0.7 * uniform(r)
     if not on[PROPORTIONS]:
         head, opening = 0.25, 0.5
     barbs = np.empty((3, 2))
@@ -164,7 +166,7 @@ def arrow(key: Key, _habits: FloatArray, on: NDArray[np.bool_], several: bool) -
     again = point(1.0 + missed * normal(r), missed * normal(r))
     shaft = _shaft(key, on)
     way = split(key, DIRECTION)
-    swapped, from_tip = uniform(way) < 0.3 and on[DIRECTION], uniform(way) < 0.12 and on[DIRECTION]
+    swapped, from_tip = uniform(way) < 0.12 and on[DIRECTION], uniform(way) < 0.08 and on[DIRECTION]
     first, second = (barbs[1:2], barbs[0:1]) if swapped else (barbs[0:1], barbs[1:2])
     form = split(key, PARTS)
     closed, how = uniform(form) < 0.12, uniform(form)
@@ -214,10 +216,10 @@ def _shaft(key: Key, on: NDArray[np.bool_]) -> FloatArray:
 
 
 @part
-def tap(key: Key, _habits: FloatArray, on: NDArray[np.bool_], _several: bool) -> Drawing:
+def tap(key: Key) -> Drawing:
     """A dot: the pen comes down, hardly moves, and leaves. Its size is set in `item`."""
     r = split(key, SHAPE)
-    still = uniform(r) < 0.4
+    still = uniform(r) < 0.1
     path = np.zeros((1 if still else 2, 2))
     for k in range(len(path)):
         path[k, 0], path[k, 1] = 0.7 * normal(r), 0.7 * normal(r)

@@ -73,7 +73,7 @@ def travelled(
     start, end = _timing(along, breaks, smooth, habits, on, key)
     total = end[-1]
     rate = habits[SAMPLES] if on[RATE] else USUAL_RATE
-    count = min(max(int(ceil(total * rate)) + 1, FEWEST), MOST)
+    count = min(max(ceil(total * rate) + 1, FEWEST), MOST)
     interval = total / (count - 1)
     times = np.empty(count)
     for i in range(count):
@@ -89,7 +89,7 @@ def travelled(
     for k in range(len(start)):
         first, last = breaks[k], breaks[k + 1]
         opening = min(int(start[k] / interval) + 1, count)
-        closing = min(int(ceil(end[k] / interval)), count)
+        closing = min(ceil(end[k] / interval), count)
         if k == len(start) - 1:
             closing = count - 1
         j = first
@@ -264,9 +264,7 @@ def pressed(count: int, mean: float, key: Key) -> FloatArray:
     for i in range(count):
         place = i / max(count - 1, 1)
         envelope = min(1.0, 0.35 + 6.5 * min(place, 1 - place))
-        found[i] = min(
-            max(mean * envelope * (1.0 + drift * place * (1 - place) * (1 - 2 * place)), 0.0), 1.0
-        )
+        found[i] = min(max(mean * envelope * (1.0 + drift * place * (1 - place) * (1 - 2 * place)), 0.0), 1.0)
     return found
 
 

@@ -26,7 +26,7 @@ class Variation:
 
 VARIATIONS: Mapping[str, Variation] = {
     "direction": Variation(
-        "any start and sense; two thirds begin at the top and go anti-clockwise or to the right",
+        "any start and sense; five in six begin at the top and go anti-clockwise or to the right",
         "the grammar of action: starts at the top left are usual, none is sure",
     ),
     "rotation": Variation("tilts of 3 to 15 degrees, one item in five at any angle", "posture; free drawing"),
@@ -56,7 +56,7 @@ VARIATIONS: Mapping[str, Variation] = {
         "smooth distortion of the plane, rms 0.3 to 3 %", "letters bulge and taper as a whole"
     ),
     "wobble": Variation(
-        "waves of 0.5 to 2 periods along the path, rms 0.3 to 3 %", "memory of form, arm posture"
+        "waves of 0.5 to 9 periods along the path, rms 0.3 to 3 %", "memory of form, arm posture"
     ),
     "bow": Variation(
         "the whole stroke bent by s.d. 0.3 to 3 % of its chord", "the arm swings about the elbow"

@@ -5,12 +5,12 @@ Frame: page units, y down; a path is (n, 2). Amounts are fractions of the stroke
 
 from __future__ import annotations
 
-from math import cos, exp, hypot, pi, sin, sqrt
+from math import cos, exp, hypot, pi, sin
 
 import numpy as np
 from numpy.typing import NDArray
 
-from data_gen.hand.chance import Key, normal, split, uniform
+from data_gen.hand.chance import Key, normal, split, two_normals, uniform
 from data_gen.hand.curves import backwards, joined, moved, piece, point, size
 from data_gen.hand.names import BOW, ENDS, FIELD, HOOKS, RETRACING, SPARSE, WOBBLE
 from physics.jit import part
@@ -22,8 +22,6 @@ HOOK_MOST = 10.0
 """Hooks are never longer than this, page units: the hand's flick does not grow with the drawing."""
 RETRACED = (0.05, 0.2)
 """Share of a path that is gone over again."""
-WAVES = 4
-"""Slow waves along a stroke that make up its wobble: 0.5, 1, 1.5 and 2 periods, amplitude falling as 1/f."""
 STRAY = 0.02
 """Standard deviation with which the ends of a letter's stroke stray."""
 
@@ -71,29 +69,35 @@ def late(path: FloatArray, share: float) -> FloatArray:
     return bridged
 
 
+PATH_POINTS = 128
+"""Evenly spaced points that carry a meant path: 14 for each loop of a spring with nine coils."""
+PERIODS = np.array([0.5, 1.0, 1.5, 2.0, 3.0, 4.5, 6.5, 9.0])
+"""Periods of the waves along a stroke that make up its wobble,"""
+FADING = 0.5
+"""and the power of the period by which they fade: slow ones are memory and posture, quick ones correction."""
+_WEIGHTS = PERIODS**-FADING / np.sqrt(np.sum(PERIODS ** (-2 * FADING)))
+_COSINES, _SINES = (
+    wave(np.outer(np.linspace(0.0, 2 * np.pi, PATH_POINTS), PERIODS)) for wave in (np.cos, np.sin)
+)
+
+
 @part
 def wobbled(path: FloatArray, amount: float, key: Key) -> FloatArray:
-    """Slow waver of both coordinates along an evenly spaced path; amount: rms displacement."""
+    """Waver of both coordinates along a path of `PATH_POINTS` evenly spaced points; amount: rms displacement."""
     r = split(key, WOBBLE)
-    weight = np.empty((2, 2, WAVES))
-    norm = 0.0
-    for k in range(WAVES):
-        norm += (2.0 / (k + 1)) ** 2
-    for axis in range(2):
-        for k in range(WAVES):
-            for phase in range(2):
-                weight[axis, phase, k] = 2.0 / (k + 1) / sqrt(norm) * normal(r)
     scale = amount * size(path)
+    weights = np.empty((4, len(PERIODS)))
+    for k in range(len(PERIODS)):
+        for half in range(2):
+            x, y = two_normals(r)
+            weights[half, k], weights[2 + half, k] = scale * _WEIGHTS[k] * x, scale * _WEIGHTS[k] * y
     found = np.empty((len(path), 2))
     for j in range(len(path)):
-        step = pi * j / (len(path) - 1)
-        c1, s1 = cos(step), sin(step)
-        c, s = c1, s1
         x, y = path[j, 0], path[j, 1]
-        for k in range(WAVES):
-            x += scale * (weight[0, 0, k] * c + weight[0, 1, k] * s)
-            y += scale * (weight[1, 0, k] * c + weight[1, 1, k] * s)
-            c, s = c * c1 - s * s1, s * c1 + c * s1
+        for k in range(len(PERIODS)):
+            c, s = _COSINES[j, k], _SINES[j, k]
+            x += weights[0, k] * c + weights[1, k] * s
+            y += weights[2, k] * c + weights[3, k] * s
         found[j, 0], found[j, 1] = x, y
     return found
 
@@ -167,7 +171,7 @@ def thinned(count: int, key: Key) -> NDArray[np.int64]:
     found = 1
     for k in range(1, kept):
         share = first + (1 - first) * (places[k] - places[1]) / max(total - places[1], 1e-9)
-        index = int(round(share * (count - 1)))
+        index = round(share * (count - 1))
         if index > seen[found - 1]:
             seen[found] = index
             found += 1

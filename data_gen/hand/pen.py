@@ -19,7 +19,7 @@ from data_gen.hand.names import (
     TREMOR,
     WOBBLE,
 )
-from data_gen.hand.paths import bowed, hooked, late, retraced, thinned, warped, wobbled
+from data_gen.hand.paths import PATH_POINTS, bowed, hooked, late, retraced, thinned, warped, wobbled
 from data_gen.hand.person import (
     GRID,
     HOOKED,
@@ -34,8 +34,6 @@ from data_gen.hand.person import (
 from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
-PATH_POINTS = 128
-"""Points that carry the meant path: 14 for each loop of a spring with nine coils."""
 FIELD_SHARE, BOW_SHARE = 0.6, 0.7
 """The plane's distortion and the whole stroke's bow against the waver of the path."""
 TREMOR_MOST = 12.0
@@ -98,7 +96,7 @@ def ink_of(
     frames: FloatArray,
     habits: FloatArray,
     keys: NDArray[np.uint64],
-    thin: NDArray[np.bool_],
+    thin: Indices,
     on: NDArray[np.bool_],
 ) -> tuple[FloatArray, FloatArray, FloatArray, Indices]:
     """The ink of many drawings, see `batch.Drawings`: points, times, pressure one below the other, and where each
@@ -118,7 +116,7 @@ def ink_of(
                     for column in range(4):
                         longer[k, column] = tape[k, column]
                 tape = longer
-            seen = thinned(count, key) if thin[item] else every(count)
+            seen = _seen(count, thin[item], key)
             for k in range(len(seen)):
                 j = seen[k]
                 tape[at + k, 0], tape[at + k, 1] = points[j, 0], points[j, 1]
@@ -131,5 +129,10 @@ def ink_of(
 
 
 @part
-def every(count: int) -> Indices:
+def _seen(count: int, device: int, key: Key) -> Indices:
+    """Which samples the device reports: all (0), what a busy one does (1), or the ends and the middle (3)."""
+    if device == 1:
+        return thinned(count, key)
+    if device == 3:
+        return np.arange(0, count, max(1, (count - 1) // 2))
     return np.arange(count)

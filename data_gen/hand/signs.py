@@ -18,7 +18,7 @@ from sketch.ink import FloatArray
 
 Indices = NDArray[np.int64]
 
-MARK = 0.38
+MARK = 0.45
 """Share of single strokes of mathematics that are other marks: braces, stars, checks, curls."""
 WORD = 0.05
 """Share of mathematics that are letters joined up to a word, or several signs in a row."""
@@ -91,7 +91,7 @@ def mathematics(key: Key, _habits: FloatArray, on: NDArray[np.bool_], several: b
 
 
 @part
-def letter_part(key: Key, on: NDArray[np.bool_], pools: Pools) -> Drawing:
+def letter_part(key: Key, pools: Pools) -> Drawing:
     """Any stroke of any symbol of mathematics, bars and rings included: what stands in a formula."""
     points, ends = picked(pools.every, split(key, SHAPE))
     return points, ends, 1

@@ -1,4 +1,4 @@
-"""Laws of the pen's motion: kinematics of the sigma-lognormal model, and perturbations that compose."""
+"""Laws of the pen's motion: kinematics of the sigma-lognormal model, variations by name, groups of writers."""
 
 from __future__ import annotations
 
@@ -6,23 +6,27 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.stats import ks_2samp
 
 from data_gen import ideals
-from data_gen.pen import draw
-from data_gen.perturb import Perturbation, bow, compose, field, shear, stretch, turn, wobble
-from data_gen.writers import Writer, sample_writer
+from data_gen.hand.names import NAMES, Mask, mask
+from data_gen.hand.paths import PATH_POINTS
+from data_gen.pen import EVERY, draw
+from data_gen.writers import ADULT, PROFILES, Writer, sample_writer
 from sketch.geometry import path_length, resample
 from sketch.ink import FloatArray
 
 STEADY = replace(
     sample_writer(np.random.default_rng(0)),
-    wobble=0.0, tremor=0.0, hooks=0.0, grid=0.0, late=0.0, overlap=0.05, rate=250.0, speed=4.0,
+    wobble=0.0, tremor=0.0, jitter=0.0, hooks=0.0, retrace=0.0, grid=0.0, late=0.0, overlap=0.05, rate=250.0, speed=4.0,
 )  # fmt: skip
 RECTANGLE = ideals.polygon([(0, 0), (200, 0), (200, 120), (0, 120)])
 
 
-def _drawn(path: FloatArray, writer: Writer, seed: int = 1) -> tuple[FloatArray, FloatArray]:
-    (stroke,) = draw([path], writer, np.random.default_rng(seed))
+def _drawn(
+    path: FloatArray, writer: Writer, seed: int = 1, on: Mask = EVERY
+) -> tuple[FloatArray, FloatArray]:
+    (stroke,) = draw([path], writer, np.random.default_rng(seed), on)
     assert stroke.times is not None
     return stroke.points, stroke.times
 
@@ -93,27 +97,86 @@ def test_nothing_to_draw_is_no_strokes() -> None:
     assert draw([], STEADY, np.random.default_rng(0)) == []
 
 
-@pytest.mark.parametrize(
-    "step",
-    [shear(0.0), stretch(0.0), turn(0.0), wobble(0.0), bow(0.0), field(0.0)],
-    ids=lambda s: str(s.draws),
-)
-def test_a_perturbation_of_amount_zero_changes_nothing(step: Perturbation) -> None:
-    paths = resample(RECTANGLE, 50)[None].repeat(3, axis=0)
-    normals = np.random.default_rng(1).standard_normal((3, step.draws))
-    assert np.allclose(step.apply(paths, normals), paths)
+def test_without_variations_and_kinematics_the_pen_stays_on_its_path() -> None:
+    points, _ = _drawn(
+        RECTANGLE, sample_writer(np.random.default_rng(5)), on=np.zeros(len(NAMES), dtype=bool)
+    )
+    away = np.min(np.linalg.norm(points[:, None] - resample(RECTANGLE, 8000)[None], axis=2), axis=1)
+    # The path is carried by evenly spaced points, which may cut a corner by half their spacing.
+    assert away.max() < path_length(RECTANGLE) / PATH_POINTS / 2
 
 
-def test_composing_is_applying_one_after_the_other() -> None:
-    paths = resample(RECTANGLE, 50)[None].repeat(4, axis=0)
-    first, second = wobble(0.02), field(0.03)
-    normals = np.random.default_rng(2).standard_normal((4, first.draws + second.draws))
-    stepwise = second.apply(first.apply(paths, normals[:, : first.draws]), normals[:, first.draws :])
-    assert np.array_equal(compose(first, second).apply(paths, normals), stepwise)
+def test_a_variation_left_out_leaves_the_others_as_they_are() -> None:
+    writer = replace(STEADY, tremor=0.01, grid=0.0)
+    both, _ = _drawn(RECTANGLE, replace(writer, jitter=0.3))
+    shaken, _ = _drawn(RECTANGLE, replace(writer, jitter=0.3), on=mask("jitter"))
+    noisy, _ = _drawn(RECTANGLE, replace(writer, jitter=0.3), on=mask("tremor"))
+    bare, _ = _drawn(RECTANGLE, replace(writer, jitter=0.3), on=mask("tremor", "jitter"))
+    assert np.allclose(both - shaken, noisy - bare)
+
+
+def test_what_is_no_variation_is_refused() -> None:
+    with pytest.raises(ValueError, match="no variation is called 'sparkle'; there are direction, "):
+        mask("sparkle")
 
 
 def test_wobble_has_the_size_it_is_asked_for() -> None:
-    paths = np.repeat(resample(ideals.line((0, 0), (100, 0)), 64)[None], 4000, axis=0)
-    step = wobble(0.02)
-    moved = step.apply(paths, np.random.default_rng(3).standard_normal((4000, step.draws))) - paths
-    assert np.sqrt((moved**2).mean()) == pytest.approx(0.02 * 100, rel=0.05)
+    line = ideals.line((0, 0), (100, 0))
+    bare = mask(*(name for name in NAMES if name != "wobble"))
+    writer = replace(STEADY, wobble=0.02)
+    drawn = draw([line] * 800, writer, np.random.default_rng(3), bare)
+    across = np.concatenate([stroke.points[:, 1] for stroke in drawn])
+    assert np.sqrt((across**2).mean()) == pytest.approx(0.02 * 100, rel=0.05)
+
+
+def test_speed_follows_curvature_by_the_two_thirds_power_law() -> None:
+    """Within a strokelet's middle, log speed against log curvature has the slope −1/3 (Viviani and Flash 1995);
+    the bells of the strokelets themselves spread it."""
+    quiet = mask(*(name for name in NAMES if name not in ("kinematics", "rounding")))
+    slopes: list[float] = []
+    for seed, aspect in enumerate((1.8, 2.2, 2.6, 3.0) * 5):
+        ellipse = ideals.superellipse((0, 0), (60 * aspect, 60), start=0.31 * seed, sweep=4 * np.pi)
+        (stroke,) = draw([ellipse], replace(STEADY, speed=2.0), np.random.default_rng(seed), quiet)
+        assert stroke.times is not None
+        step = np.diff(stroke.points, axis=0)
+        speed = np.linalg.norm(step, axis=1) / np.diff(stroke.times)
+        middle = (stroke.points[1:] + stroke.points[:-1]) / 2
+        angle = np.arctan2(middle[:, 1] / 60, middle[:, 0] / (60 * aspect))
+        curvature = aspect / (aspect**2 * np.sin(angle) ** 2 + np.cos(angle) ** 2) ** 1.5 / 60
+        inner = slice(len(speed) // 8, -len(speed) // 8)
+        slopes.append(float(np.polyfit(np.log(curvature[inner]), np.log(speed[inner]), 1)[0]))
+    assert -0.40 < np.mean(slopes) < -0.24
+
+
+def test_a_hand_with_tremor_swings_at_4_to_12_hertz_more_than_others() -> None:
+    def swinging(profile: str) -> float:
+        """Share of the speed's variance within 4 to 12 Hz."""
+        shares: list[float] = []
+        rng = np.random.default_rng(8)
+        for _ in range(60):
+            writer = replace(sample_writer(rng, profile), rate=100.0, speed=1.5, grid=0.0, jitter=0.0)
+            (stroke,) = draw([ideals.line((0, 0), (300, 20))], writer, rng)
+            across = np.diff(stroke.points[:, 1])
+            assert stroke.times is not None
+            power = np.abs(np.fft.rfft(across - across.mean())) ** 2
+            frequency = np.fft.rfftfreq(len(across), float(stroke.times[1]))
+            shares.append(float(power[(frequency >= 4) & (frequency <= 12)].sum() / 300**2))
+        return float(np.median(shares))
+
+    assert swinging("tremor") > 10 * swinging("adult")
+
+
+@pytest.mark.parametrize("profile", [name for name in PROFILES if name != "adult"])
+def test_a_group_differs_from_adults_where_it_says_so_and_nowhere_else(profile: str) -> None:
+    rng = np.random.default_rng(1)
+    people = [sample_writer(rng, profile) for _ in range(1500)]
+    adults = [sample_writer(rng, "adult") for _ in range(1500)]
+    for habit in ADULT:
+        there, here = ([getattr(one, habit) for one in some] for some in (people, adults))
+        alike = ks_2samp(there, here).pvalue
+        assert (alike > 1e-5) == (PROFILES[profile][habit] == ADULT[habit]), habit
+
+
+def test_a_group_that_is_none_is_refused() -> None:
+    with pytest.raises(ValueError, match="no group of writers is called 'martian'; there are adult"):
+        sample_writer(np.random.default_rng(0), "martian")
