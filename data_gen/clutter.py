@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from data_gen.glyphs import alphabet
-from data_gen.strokes import meant
+from data_gen.strokes import Recipe, meant
 from sketch.geometry import bounding_box
 from sketch.ink import FloatArray
 
@@ -32,6 +32,8 @@ class ClutterRule:
 
 
 RULE = ClutterRule()
+IN_ONE = Recipe(without=("several_strokes", "broken"))
+"""A crossing-out is one stroke."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,7 +58,7 @@ def _piece(letter: float, rng: np.random.Generator) -> Clutter:
     paths = _sized(ways, size)
     if not crossed:
         return Clutter(paths, False)
-    (scribble,), _ = meant("scribble", int(rng.integers(1 << 31)))
+    (scribble,), _ = meant("scribble", int(rng.integers(1 << 31)), recipe=IN_ONE)
     reach = float(rng.uniform(*RULE.beyond)) * max(size, letter)
     return Clutter([*paths, *_sized([scribble], reach)], True)
 

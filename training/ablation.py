@@ -43,12 +43,12 @@ class AblationRule:
 
     drawings: int = 16_000
     epochs: int = 4
-    size: NetSize = NetSize(width=24, stroke=48, message=16, heads=2, rounds=1)
     seed: int = 71
     resamplings: int = 1_000
 
 
 RULE = AblationRule()
+SIZE = NetSize(width=24, stroke=48, message=16, heads=2, rounds=1)
 ALL, AGAIN = "(nothing)", "(nothing, another seed)"
 
 
@@ -104,7 +104,7 @@ def right_without(name: str, people: People, jobs: int, rule: AblationRule = RUL
     seed = rule.seed + (name == AGAIN)
     plan = Plan(alone=rule.drawings, strewn=0, pages=0, doodles=0, recipe=Recipe(without))
     corpus = make_corpus(plan, seed, jobs)
-    net = fit(corpus, seed, FitRule(epochs=rule.epochs, both=1), rule.size)
+    net = fit(corpus, seed, FitRule(epochs=rule.epochs, both=1), SIZE)
     said = say(net, people.corpus)
     shares = torch.softmax(torch.from_numpy(said.logits), dim=1).numpy()
     rows = np.add.reduceat(shares, people.corpus.first[:-1])
@@ -137,7 +137,7 @@ def _table(found: dict[str, Right], people: People, ink: str) -> Iterable[str]:
     yield f"python -m training.ablation --ink {ink}"
     yield (
         f"{date.today().isoformat()}, seed {RULE.seed}; {RULE.drawings:,} drawings, {RULE.epochs} epochs, a net of width "
-        f"{RULE.size.width}; {len(people.label):,} rows of {writers} writers"
+        f"{SIZE.width}; {len(people.label):,} rows of {writers} writers"
     )
     base = found[ALL]
     yield f"balanced accuracy with every variation: {100 * balanced(base, people.label):.1f} %"

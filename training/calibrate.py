@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 from scipy.special import expit, log_softmax
 
-from training.drawings import NONE
 from training.fit import Said
 
 
@@ -41,7 +40,7 @@ class Calibration:
 
 def calibrate(said: Said, rule: RejectRule = RULE) -> Calibration:
     """From the net's answers to held-out ink."""
-    known = said.kind != NONE
+    known = said.kind >= 0
     return Calibration(
         temperature(said.logits[known], said.kind[known]),
         float(np.quantile(expit(said.strange[known].astype(np.float64)), rule.kept)),

@@ -21,6 +21,8 @@ from sketch.page import STROKE_KINDS, Sketch, StrokeKind
 NONE = -1
 """Instead of a kind: the stroke is none of them. Instead of a thing: which other strokes are of the same
 thing is not asked."""
+UNASKED = -2
+"""Instead of a kind: nobody knows, and nobody asks. A stray mark on a page may be anything."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,14 +62,18 @@ BESIDE: Mapping[StrokeKind, float] = {
 """Shares of things strewn over a page. Gestures come over what is there, below."""
 
 
+PAGES = (0.3, 0.35)
+"""Share of whole pages that are looked at before they are finished, and of those that bear clutter."""
+
+
 @dataclass(frozen=True, slots=True)
 class Plan:
     """How many of what. Counts are drawings."""
 
-    alone: int = 240_000
-    strewn: int = 16_000
-    pages: int = 3_000
-    doodles: int = 24_000
+    alone: int = 160_000
+    strewn: int = 10_000
+    pages: int = 2_500
+    doodles: int = 16_000
     recipe: Recipe = EVERYBODY
     unseen: tuple[str, ...] = ("knot", "fish", "signature", "leaf")
     """Families of doodles that are kept for measuring: what is rejected must not have been learned by heart."""
@@ -146,9 +152,10 @@ def pages(start: int, count: int, seed: int) -> Iterator[Drawing]:
         turn, which = divmod(index, len(PROBLEMS))
         name = PROBLEMS[which]
         answers = ANSWERS[name]
-        drawn = drawing_of(whole_page(name, seed, index, answers[turn % len(answers)]).truth)
         rng = np.random.default_rng([seed, index, 11])
-        yield _partly(drawn, rng) if rng.random() < 0.3 else drawn
+        partly, cluttered = (rng.random(2) < PAGES).tolist()
+        drawn = drawing_of(whole_page(name, seed, index, answers[turn % len(answers)], cluttered).truth)
+        yield _partly(drawn, rng) if partly else drawn
 
 
 def drawing_of(sketch: Sketch) -> Drawing:
@@ -158,7 +165,7 @@ def drawing_of(sketch: Sketch) -> Drawing:
     for number, strokes in enumerate(owners):
         for stroke in strokes:
             things[stroke] = number
-    kinds = tuple(NONE if kind is None else STROKE_KINDS.index(kind) for kind in sketch.kinds())
+    kinds = tuple(UNASKED if kind is None else STROKE_KINDS.index(kind) for kind in sketch.kinds())
     return Drawing(sketch.ink.strokes, kinds, tuple(things))
 
 

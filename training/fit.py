@@ -13,7 +13,7 @@ from torch import Tensor, nn
 
 from training.batches import Answers, answers, batches, look
 from training.dataset import Corpus
-from training.drawings import NONE
+from training.drawings import NONE, UNASKED
 from training.nets import SIZE, NetSize, PageNet
 from training.relations import Relations
 
@@ -22,9 +22,9 @@ from training.relations import Relations
 class FitRule:
     """How the net is trained."""
 
-    epochs: int = 8
-    both: int = 2
-    """Of these the last in which strokes are looked at in both drawing senses, as the finished net does."""
+    epochs: int = 5
+    both: int = 1
+    """Of these the last ones in which strokes are looked at in both drawing senses, as the finished net does."""
     batch: int = 512
     """Strokes in a batch, on average."""
     rate: float = 4e-3
@@ -96,8 +96,8 @@ def loss_of(found: list[Answers], rule: FitRule) -> Tensor:
     is asked."""
     kinds = torch.cat([one.kinds[_known(one)] for one in found])
     kind = torch.cat([one.pages.kind[_known(one)] for one in found])
-    strange = torch.cat([one.strange[one.pages.there] for one in found])
-    none = torch.cat([(one.pages.kind == NONE)[one.pages.there] for one in found])
+    strange = torch.cat([one.strange[one.pages.there & (one.pages.kind != UNASKED)] for one in found])
+    none = torch.cat([one.pages.kind[one.pages.there & (one.pages.kind != UNASKED)] == NONE for one in found])
     loss = nn.functional.cross_entropy(kinds, kind, label_smoothing=rule.smoothing)
     loss = loss + rule.strange * nn.functional.binary_cross_entropy_with_logits(strange, none.float())
     paired = [_pairs(one) for one in found if one.kinds.shape[1] > 1]
@@ -108,7 +108,7 @@ def loss_of(found: list[Answers], rule: FitRule) -> Tensor:
 
 
 def _known(one: Answers) -> Tensor:
-    return one.pages.there & (one.pages.kind != NONE)
+    return one.pages.there & (one.pages.kind >= 0)
 
 
 def _pairs(one: Answers) -> tuple[Tensor, Tensor]:

@@ -149,7 +149,7 @@ def _dashes(path: FloatArray, r: State, on: NDArray[np.bool_]) -> Drawing:
 def arrow(key: Key, _habits: FloatArray, on: NDArray[np.bool_], several: bool) -> Drawing:
     """Arrows in one, two or three strokes: straight, bent or angular shaft, head open or closed, barbs uneven."""
     r = split(key, PROPORTIONS)
-    head, opening = 0.16 + 0.38 * uniform(r), 0.3 + 0.7 * uniform(r)
+    head, opening = 0.14 + 0.7 * uniform(r) ** 1.6, 0.3 + 0.7 * uniform(r)
     if not on[PROPORTIONS]:
         head, opening = 0.25, 0.5
     barbs = np.empty((3, 2))
@@ -179,9 +179,16 @@ def arrow(key: Key, _habits: FloatArray, on: NDArray[np.bool_], several: bool) -
             path = joined(joined(shaft, first), joined(again, second))
         points, ends = one(path)
         return points, ends, 1
+    # A large head is put round a shaft that stops short of its tip, and now and then drawn before it.
+    short, head_first = 0.6 * uniform(form) ** 2 * min(1.0, head / 0.4), uniform(form) < 0.2 and on[DIRECTION]
+    if on[PROPORTIONS]:
+        for k in range(len(shaft)):
+            shaft[k, 0] *= 1.0 - short * cos(opening)
     if from_tip:
         shaft = backwards(shaft)
-    points, ends = one(shaft)
+    points, ends = np.empty((0, 2)), np.empty(0, dtype=np.int64)
+    if not head_first:
+        points, ends = more(points, ends, shaft)
     if closed:
         points, ends = more(points, ends, joined(joined(first, tip), joined(second, first)))
     elif how < 0.72:
@@ -193,6 +200,8 @@ def arrow(key: Key, _habits: FloatArray, on: NDArray[np.bool_], several: bool) -
     else:
         points, ends = more(points, ends, joined(first, tip))
         points, ends = more(points, ends, joined(second, again))
+    if head_first:
+        points, ends = more(points, ends, shaft)
     return points, ends, len(ends)
 
 
