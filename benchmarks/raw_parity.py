@@ -57,7 +57,7 @@ def _inputs(strokes: int, seed: int) -> list[Feeds]:
     done = start = 0
     while done < strokes:
         drawn = items(CHUNK, seed, start)
-        pages = np.cumsum(np.random.default_rng([seed, start]).random(CHUNK) < 0.6)
+        pages = np.cumsum((np.random.default_rng([seed, start]).random(CHUNK) < 0.6).astype(np.int64))
         found.append(
             feeds(
                 [stroke for item in drawn for stroke in item.strokes],

@@ -43,7 +43,12 @@ def main(arguments: list[str] | None = None) -> int:
     plan = Plan().scaled(options.drawings / Plan().total)
     held = HELD_OUT.scaled(min(1.0, 4 * options.drawings / Plan().total))
     work = Path(options.work)
-    key = {"seed": options.seed, "epochs": options.epochs, "plan": asdict(plan), "kinds": list(STROKE_KINDS)}
+    key: dict[str, object] = {
+        "seed": options.seed,
+        "epochs": options.epochs,
+        "plan": asdict(plan),
+        "kinds": list(STROKE_KINDS),
+    }
     _prepare(work, key, resume=options.resume)
     with progress(console) as tell:
         corpus = _corpus(work / "corpus.npz", plan, options.seed, options.threads, tell)

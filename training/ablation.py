@@ -158,7 +158,9 @@ def _logged(log: Path) -> dict[str, Right]:
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="python -m training.ablation", description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(
+        prog="python -m training.ablation", description="Which realism matters: variations left out in turn."
+    )
     parser.add_argument("--ink", type=Path, required=True, help="labelled rows of people's ink, JSON Lines")
     parser.add_argument(
         "--out", type=Path, default=Path("ablation.txt"), help="the table; the log lies beside it"

@@ -116,9 +116,8 @@ def answers(
             on_page, standing = page_frame(pages.paths, same)
             between = relations(on_page, pages.span, pages.timed)
             company = same.float() * (1.0 - torch.eye(longest))
-        found.append(
-            Answers(*net(flat.reshape(count, longest, -1), standing, between, company), company, pages)
-        )
+        kinds, strange, together = net(flat.reshape(count, longest, -1), standing, between, company)
+        found.append(Answers(kinds, strange, together, company, pages))
     return found
 
 

@@ -174,11 +174,10 @@ def strewn(start: int, count: int, seed: int, plan: Plan) -> Iterator[Drawing]:
     most = STREWN.things[1]
     pool = items(count * most, seed, start * most, BESIDE, plan.recipe)
     odd = doodles_of(start, count, seed + 7_000, plan)
-    only = {kind: dict.fromkeys(STROKE_KINDS, 0.0) | {kind: 1.0} for kind in STROKE_KINDS}
     gestures = _Gestures(
-        items(count, seed + 8_000, start, only["lasso"], plan.recipe),
-        items(count, seed + 9_000, start, only["scribble"], plan.recipe),
-        items(count, seed + 10_000, start, only["tap"], plan.recipe),
+        items(count, seed + 8_000, start, _only("lasso"), plan.recipe),
+        items(count, seed + 9_000, start, _only("scribble"), plan.recipe),
+        items(count, seed + 10_000, start, _only("tap"), plan.recipe),
     )
     for offset in range(count):
         rng = np.random.default_rng([seed, start + offset, 13])
@@ -187,6 +186,10 @@ def strewn(start: int, count: int, seed: int, plan: Plan) -> Iterator[Drawing]:
             if odd and rng.random() < STREWN.doodle:
                 chosen[place] = odd[int(rng.integers(len(odd)))]
         yield _strewn(chosen, gestures, offset, rng)
+
+
+def _only(kind: StrokeKind) -> Mapping[StrokeKind, float]:
+    return {other: float(other == kind) for other in STROKE_KINDS}
 
 
 def _strewn(

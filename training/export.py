@@ -52,7 +52,9 @@ def assembled(reader: RawReader) -> ModelProto:
     for name, branch in branches.items():
         _prefixed(branch.graph, f"{name[:4]}.", (*BETWEEN, *INPUTS))
         graphs[name] = _bare(branch.graph, graph, stored)
-    graph.node.append(helper.make_node("If", ["company"], list(OUTPUTS), name="company_or_not", **graphs))
+    choice = helper.make_node("If", ["company"], list(OUTPUTS), name="company_or_not")
+    choice.attribute.extend(helper.make_attribute(name, branch) for name, branch in graphs.items())
+    graph.node.append(choice)
     known = {value.name: value for value in (*graph.input, *branches["then_branch"].graph.input)}
     outputs = list(branches["then_branch"].graph.output)
     for value, name in zip(outputs, OUTPUTS, strict=True):

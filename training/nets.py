@@ -132,6 +132,7 @@ class PageNet(nn.Module):
         """The same for strokes (s, stroke) each of which is its page's only one: kinds (s, 9), none of them (s,)."""
         strokes = encoded + self.standing.bias
         for look in self.rounds:
+            assert isinstance(look, Round)
             strokes = look.unheard(strokes)
         answer = self.judge(strokes)
         return answer[:, :-1], answer[:, -1]

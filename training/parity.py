@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -27,7 +28,7 @@ def parity(reader: RawReader, file: Path, seed: int, strokes: int) -> float:
     while done < strokes:
         drawn = items(CHUNK, seed, start)
         rng = np.random.default_rng([seed, start])
-        page_of = np.cumsum(rng.random(len(drawn)) < 0.6)
+        page_of = np.cumsum((rng.random(len(drawn)) < 0.6).astype(np.int64))
         every = [stroke for item in drawn for stroke in item.strokes]
         page = np.repeat(page_of, [len(item.strokes) for item in drawn])
         there = session.run(None, feeds(every, page))
@@ -53,5 +54,5 @@ def python_path(
     return [answer.numpy() for answer in said]
 
 
-def _apart(one: list[np.ndarray[tuple[int, ...], np.dtype[np.float32]]], other: list[object]) -> float:
+def _apart(one: list[np.ndarray[tuple[int, ...], np.dtype[np.float32]]], other: Sequence[object]) -> float:
     return max(float(np.abs(a - np.asarray(b)).max()) for a, b in zip(one, other, strict=True))
