@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from sketch.ink import FloatArray, Ink, readonly
 from sketch.page import STROKE_KINDS, StrokeKind
@@ -60,6 +60,22 @@ class Recognizer(Protocol):
     def claims(self) -> frozenset[StrokeKind]: ...
 
     def recognize(self, ink: Ink) -> tuple[Claim, ...]: ...
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bonds:
+    """Which strokes are one thing: pairs (m, 2) of stroke indices, the lesser first, none twice; scores (m,) the
+    probability of each. Pairs that are not listed are not bound."""
+
+    pairs: NDArray[np.int64]
+    scores: FloatArray
+
+
+@runtime_checkable
+class Grouping(Recognizer, Protocol):
+    """A recognizer that also says which strokes belong together; the others leave that to geometry."""
+
+    def read(self, ink: Ink) -> tuple[tuple[Claim, ...], Bonds]: ...
 
 
 def claim_for(kind: StrokeKind, confidence: float, rejected: bool = False) -> Claim:

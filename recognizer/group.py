@@ -15,6 +15,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
+from recognizer.claims import Bonds
 from sketch.geometry import diagonal
 from sketch.ink import FloatArray, Ink
 
@@ -35,6 +36,8 @@ class GroupRule:
     line_gap: float = 0.35
     """Gap between what stands above and below in one line (fractions, = and dots), in letter
     heights; lines of writing stand further apart."""
+    bond: float = 0.5
+    """Mean probability that the strokes of two sets are of one thing, from which they are: more likely than not."""
     flat: float = 0.3
     """Height over width: below it a bar, which says nothing of the letters' height."""
 
@@ -63,6 +66,55 @@ def chains(ink: Ink, strokes: Sequence[int], rule: GroupRule = GROUP) -> list[tu
             seen.update(chain)
             found.append(tuple(sorted(strokes[index] for index in chain)))
     return found
+
+
+def bound(strokes: Sequence[int], bonds: Bonds, rule: GroupRule = GROUP) -> list[tuple[int, ...]]:
+    """These strokes as things, by what a recognizer says of every two of them; every stroke is in one.
+
+    The surest pair is joined first, and two sets are joined while the mean over all pairs between them is
+    more likely than not: one doubtful bridge makes no thing of two.
+    """
+    chosen = np.asarray(strokes, dtype=np.int64)
+    inside = np.isin(bonds.pairs, chosen).all(axis=1)
+    pairs, scores = np.searchsorted(np.sort(chosen), bonds.pairs[inside]), bonds.scores[inside]
+    sure = pairs[scores > rule.bond]
+    graph = coo_array((np.ones(len(sure), dtype=np.int8), (sure[:, 0], sure[:, 1])), shape=(len(chosen),) * 2)
+    # Sets are joined only where some pair is likely: what no such pair connects is told apart at once.
+    count, part = connected_components(graph, directed=False)
+    found: list[tuple[int, ...]] = []
+    for number in range(count):
+        members = np.flatnonzero(part == number)
+        between = np.zeros((len(members), len(members)))
+        of_part = part[pairs[:, 0]] == number
+        of_part &= part[pairs[:, 1]] == number
+        first, second = np.searchsorted(members, pairs[of_part]).T
+        between[first, second] = between[second, first] = scores[of_part]
+        found += [tuple(np.sort(chosen)[members[one]].tolist()) for one in _linked(between, rule.bond)]
+    return found
+
+
+def _linked(between: FloatArray, least: float) -> list[list[int]]:
+    """Average linkage: sets of rows, joined while the mean score between two of them is above `least`."""
+    sets = [[row] for row in range(len(between))]
+    while len(sets) > 1:
+        counts = np.array([len(one) for one in sets])
+        mean = between / np.outer(counts, counts)
+        i, j = divmod(int(np.argmax(mean)), len(sets))
+        if mean[i, j] <= least:
+            break
+        keep, gone = min(i, j), max(i, j)
+        sets[keep] += sets.pop(gone)
+        between[keep] += between[gone]
+        between[:, keep] += between[:, gone]
+        between = np.delete(np.delete(between, gone, axis=0), gone, axis=1)
+        between[keep, keep] = 0.0
+    return [sorted(one) for one in sets]
+
+
+def apart(strokes: Sequence[int], bonds: Bonds, rule: GroupRule = GROUP) -> bool:
+    """Whether a recognizer says that these strokes are not one thing: every two of them, on the mean."""
+    inside = np.isin(bonds.pairs, strokes).all(axis=1)
+    return 2 * float(bonds.scores[inside].sum()) / (len(strokes) * (len(strokes) - 1)) < rule.bond
 
 
 def lines(ink: Ink, strokes: Sequence[int], rule: GroupRule = GROUP) -> list[tuple[int, ...]]:

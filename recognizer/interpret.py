@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from recognizer.attach import Solids, anchored
-from recognizer.claims import Claim, Recognizer
+from recognizer.claims import Bonds, Claim, Grouping, Recognizer
 from recognizer.erase import erased, without_object
 from recognizer.group import boxes_of, letter_height, lines
 from recognizer.parts import Part, among_letters, arrows, links, shapes
@@ -61,7 +61,7 @@ def interpret(ink: Ink, recognizer: Recognizer, notes: Sequence[Note] = ()) -> S
     Strokes that the recognizer rejects, and erased ones, belong to nobody. Components are labelled A,
     B … in reading order; a shape's start and end stay where the pen put them.
     """
-    claims = recognizer.recognize(ink)
+    claims, bonds = _read(ink, recognizer)
     meant: list[StrokeKind | None] = [None if claim.rejected else claim.kind for claim in claims]
     idle = without_object(ink, meant)
     named: list[StrokeKind | None] = [
@@ -69,9 +69,9 @@ def interpret(ink: Ink, recognizer: Recognizer, notes: Sequence[Note] = ()) -> S
     ]
     gone = erased(ink, named)
     kinds: list[StrokeKind | None] = [None if index in gone else kind for index, kind in enumerate(named)]
-    solids, held = links(ink, kinds, shapes(ink, kinds))
+    solids, held = links(ink, kinds, shapes(ink, kinds, bonds))
     pointing, writing = _leftover(ink, kinds, claims, [*solids, *held])
-    marks = arrows(ink, pointing)
+    marks = arrows(ink, pointing, bonds)
     taps = [index for index, kind in enumerate(kinds) if kind == "tap"]
     tapped, points = _tapped(ink, taps, solids, writing)
     components = _labelled(solids, held, marks, [tapped.get(tap) for tap in taps])
@@ -82,6 +82,11 @@ def interpret(ink: Ink, recognizer: Recognizer, notes: Sequence[Note] = ()) -> S
             gestures.append(Gesture(kind, index))
     gestures.sort(key=lambda gesture: gesture.stroke)
     return Sketch(ink, components, expressions, associations, tuple(gestures))
+
+
+def _read(ink: Ink, recognizer: Recognizer) -> tuple[tuple[Claim, ...], Bonds | None]:
+    """What the recognizer says of each stroke, and of which strokes are one thing if it has a say in that."""
+    return recognizer.read(ink) if isinstance(recognizer, Grouping) else (recognizer.recognize(ink), None)
 
 
 def notes_of(sketch: Sketch) -> tuple[Note, ...]:

@@ -13,10 +13,11 @@ import numpy as np
 import shapely
 
 from recognizer.attach import Solids
+from recognizer.claims import Bonds
 from recognizer.fit import fit, fit_sides, joined
 from recognizer.geometric.ring import ring
 from recognizer.geometric.rules import RULES, outline_evidence
-from recognizer.group import boxes_of, chains, letter_height
+from recognizer.group import apart, bound, boxes_of, chains, letter_height
 from recognizer.preprocess import unit_path
 from sketch.geometry import diagonal, resample, solid_area
 from sketch.ink import Ink, Stroke
@@ -60,15 +61,22 @@ class Part:
     ends: tuple[int, int] | None = None
 
 
-def shapes(ink: Ink, kinds: Sequence[StrokeKind | None], rule: PartRule = PARTS) -> list[Part]:
-    """Circles and polygons that enclose enough: outlines of several strokes first, then those of one."""
+def shapes(
+    ink: Ink, kinds: Sequence[StrokeKind | None], bonds: Bonds | None = None, rule: PartRule = PARTS
+) -> list[Part]:
+    """Circles and polygons that enclose enough: outlines of several strokes first, then those of one. bonds:
+    which strokes the recognizer takes for one thing, if it says so; else the ends alone decide."""
     sides = [index for index, kind in enumerate(kinds) if kind in ("circle", "polygon")]
     pieces = [index for index, kind in enumerate(kinds) if kind in ("circle", "polygon", "wire", "math")]
     left, top, right, bottom = ink.bounds()
     least = (rule.area * float(np.hypot(right - left, bottom - top))) ** 2
     found: list[Part] = []
     used: set[int] = set()
-    for chain in (*chains(ink, sides), *chains(ink, pieces)):
+    chained = [*chains(ink, sides), *chains(ink, pieces)]
+    if bonds is not None:
+        told = [strokes for strokes in bound(sides, bonds) if len(strokes) > 1]
+        chained = [*told, *(chain for chain in chained if not apart(chain, bonds))]
+    for chain in chained:
         if used.intersection(chain):
             continue
         shape = _outline_of([ink[index] for index in chain], [kinds[index] for index in chain])
@@ -121,10 +129,20 @@ def attached(ink: Ink, candidates: Sequence[Part], solids: Sequence[Part]) -> li
     ]
 
 
-def arrows(ink: Ink, strokes: Sequence[int], rule: PartRule = PARTS) -> list[Part]:
-    """Arrows from the strokes claimed for them: a stroke that meets a much larger one is of its head."""
+def arrows(
+    ink: Ink, strokes: Sequence[int], bonds: Bonds | None = None, rule: PartRule = PARTS
+) -> list[Part]:
+    """Arrows from the strokes claimed for them: those that the recognizer takes for one thing, if it says so;
+    else a stroke that meets a much larger one is of its head."""
     if not strokes:
         return []
+    parts = _headed(ink, strokes, rule) if bonds is None else bound(strokes, bonds)
+    fitted = [(fit("arrow", [ink[index] for index in members]), members) for members in parts]
+    return [Part(shape, members) for shape, members in fitted if shape is not None]
+
+
+def _headed(ink: Ink, strokes: Sequence[int], rule: PartRule) -> list[tuple[int, ...]]:
+    """The strokes as arrows by their sizes and where they meet."""
     sizes = np.array([diagonal(ink[index].points) for index in strokes])
     boxes = shapely.box(*boxes_of(ink, strokes).T)
     tree = shapely.STRtree(boxes)
@@ -137,12 +155,7 @@ def arrows(ink: Ink, strokes: Sequence[int], rule: PartRule = PARTS) -> list[Par
     drawn: dict[int, list[int]] = {}
     for position, shaft in enumerate(shaft_of):
         drawn.setdefault(shaft_of[shaft] if shaft_of[shaft] == shaft else position, []).append(position)
-    found: list[Part] = []
-    for members in drawn.values():
-        shape = fit("arrow", [ink[strokes[position]] for position in members])
-        if shape is not None:
-            found.append(Part(shape, tuple(strokes[position] for position in members)))
-    return found
+    return [tuple(strokes[position] for position in members) for members in drawn.values()]
 
 
 def _outline_of(strokes: list[Stroke], kinds: list[StrokeKind | None]) -> Solid | None:

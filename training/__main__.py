@@ -1,4 +1,4 @@
-"""`python -m training`: remakes the stroke net from nothing but a seed."""
+"""`python -m training`: remakes the net from nothing but a seed."""
 
 from __future__ import annotations
 
@@ -7,98 +7,137 @@ import json
 import os
 import sys
 import time
-from collections.abc import Callable, Generator
-from contextlib import contextmanager
+from dataclasses import asdict
 from datetime import date
 from pathlib import Path
 
 import numpy as np
 import torch
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from recognizer.learned.recognizer import WEIGHTS
 from sketch.page import STROKE_KINDS
-from training.calibrate import temperature
-from training.dataset import make_corpus
-from training.export import export, parity
-from training.fit import RULE, FitRule, fit, logits_of
-from training.nets import parameters_of
+from training.calibrate import Calibration, calibrate, false_positives
+from training.dataset import Corpus, corpus_of, make_corpus
+from training.drawings import NONE, Plan, alone, doodles_of
+from training.export import export
+from training.fit import RULE, FitRule, fit, say
+from training.nets import PageNet, parameters_of
+from training.parity import parity
+from training.progress import Tell, progress
+from training.reader import RawReader
+
+WORK = Path(".inklined-train")
+"""Where corpus and checkpoint are kept while training runs, so that it can be taken up again."""
+
+HELD_OUT = Plan(alone=10_000, strewn=800, pages=600, doodles=1_000)
+"""Drawings that the net is calibrated on; their seed, and so their writers, are others."""
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Makes the corpus, trains, calibrates, exports and writes the card beside the weights."""
+    """Makes the corpus, trains, calibrates, exports and writes the card's figures beside the weights."""
     options = _options(arguments)
     console = Console(stderr=True)
     begun = time.monotonic()
     torch.set_num_threads(options.threads)
-    with _progress(console) as tell:
-        corpus = make_corpus(
-            options.strokes,
-            options.seed,
-            options.threads,
-            lambda done: tell("generating", done / options.strokes, ""),
-        )
-        held_out = make_corpus(max(512, options.strokes // 20), options.seed + 1_000, options.threads)
+    plan = Plan().scaled(options.drawings / Plan().total)
+    held = HELD_OUT.scaled(min(1.0, 4 * options.drawings / Plan().total))
+    work = Path(options.work)
+    key: dict[str, object] = {
+        "seed": options.seed,
+        "epochs": options.epochs,
+        "plan": asdict(plan),
+        "kinds": list(STROKE_KINDS),
+    }
+    _prepare(work, key, resume=options.resume)
+    with progress(console) as tell:
+        corpus = _corpus(work / "corpus.npz", plan, options.seed, options.threads, tell)
+        trained = time.monotonic()
         net = fit(
             corpus,
             options.seed,
             FitRule(epochs=options.epochs),
-            lambda share, loss: tell("training", share, f"loss {loss:.3f}"),
+            progress=lambda share, loss: tell("training", share, f"loss {loss:.3f}"),
+            checkpoint=work / "checkpoint.pt",
         )
-    logits = logits_of(net, held_out)
-    heat = temperature(logits, held_out.kind)
-    accuracy = float((logits.argmax(axis=1) == held_out.kind).mean())
+        fitted = time.monotonic()
+        unseen = make_corpus(
+            held, options.seed + 1_000, options.threads, lambda s: tell("held-out ink", s, "")
+        )
+    found, figures = _judged(net, unseen, options.seed, held)
     target = Path(options.out)
     recipe = {
-        "command": f"inklined train --seed {options.seed} --strokes {options.strokes} --epochs {options.epochs}",
+        "command": f"inklined train --seed {options.seed} --drawings {options.drawings} --epochs {options.epochs}",
         "seed": options.seed,
-        "strokes": options.strokes,
+        "drawings": plan.total,
+        "strokes": len(corpus.kind),
         "epochs": options.epochs,
         "kinds": list(STROKE_KINDS),
         "parameters": parameters_of(net),
-        "temperature": round(heat, 4),
-        "held_out_accuracy_on_generated_ink": round(accuracy, 4),
+        "temperature": round(found.temperature, 4),
+        "reject_above": round(found.reject_above, 5),
+        **figures,
         "date": date.today().isoformat(),
         "torch": torch.__version__,
     }
-    export(net, heat, target, {"inklined": json.dumps(recipe)})
-    recipe["parity_with_torch"] = parity(net, heat, target, held_out)
+    reader = RawReader(net, found.temperature).eval()
+    export(reader, target, {"inklined": json.dumps(recipe)})
+    recipe["parity_with_torch"] = parity(
+        reader, target, seed=options.seed + 2_000, strokes=min(10_000, plan.total)
+    )
+    recipe["minutes_of_fitting"] = round((fitted - trained) / 60, 2)
     recipe["minutes"] = round((time.monotonic() - begun) / 60, 2)
     target.with_suffix(".json").write_text(json.dumps(recipe, indent=2, ensure_ascii=False) + "\n", "utf-8")
-    console.print(
-        f"{recipe['parameters']:,} parameters, {accuracy:.2%} of held-out generated strokes right, "
-        f"temperature {heat:.2f}, ONNX within {recipe['parity_with_torch']:.1e} of torch, "
-        f"{recipe['minutes']} minutes"
-    )
+    for name, value in recipe.items():
+        console.print(f"{name}: {value}", markup=False)
     console.print(f"wrote {target}")
-    return 0 if np.isfinite(heat) and recipe["parity_with_torch"] < 1e-4 else 1
+    return 0 if np.isfinite(found.temperature) and recipe["parity_with_torch"] < 1e-4 else 1
 
 
-@contextmanager
-def _progress(console: Console) -> Generator[Callable[[str, float, str], None]]:
-    """Tells how far each stage is: bars on a terminal, a line every tenth in a log."""
-    if not console.is_terminal:
-        told: dict[str, int] = {}
-
-        def tell(stage: str, share: float, note: str) -> None:
-            tenth = int(10 * share)
-            if told.get(stage) != tenth:
-                told[stage] = tenth
-                console.print(f"{stage} {10 * tenth} % {note}")
-
-        yield tell
+def _prepare(work: Path, key: dict[str, object], resume: bool) -> None:
+    """An empty place to work in; with `resume` the one there, if it is of the same training."""
+    note = work / "training.json"
+    text = json.dumps(key, sort_keys=True)
+    if resume:
+        if not note.exists():
+            sys.exit(f"nothing to resume in {work}: it holds no training.json; leave --resume out to begin")
+        if note.read_text("utf-8") != text:
+            sys.exit(f"{work} holds another training: {note.read_text('utf-8')}; asked for is {text}")
         return
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[note]}"))
-    with Progress(*columns, TimeElapsedColumn(), TimeRemainingColumn(), console=console) as bars:
-        stages: dict[str, TaskID] = {}
+    work.mkdir(parents=True, exist_ok=True)
+    for name in ("corpus.npz", "checkpoint.pt"):
+        (work / name).unlink(missing_ok=True)
+    note.write_text(text, "utf-8")
 
-        def draw(stage: str, share: float, note: str) -> None:
-            if stage not in stages:
-                stages[stage] = bars.add_task(stage, total=1.0, note="")
-            bars.update(stages[stage], completed=share, note=note)
 
-        yield draw
+def _corpus(file: Path, plan: Plan, seed: int, jobs: int, tell: Tell) -> Corpus:
+    if file.exists():
+        return Corpus.load(file)
+    corpus = make_corpus(plan, seed, jobs, lambda share: tell("generating", share, ""))
+    fresh = file.with_name("fresh.npz")
+    corpus.save(fresh)
+    fresh.replace(file)
+    return corpus
+
+
+def _judged(net: PageNet, held: Corpus, seed: int, plan: Plan) -> tuple[Calibration, dict[str, float]]:
+    """Calibration on held-out ink, and how the net does there."""
+    said = say(net, held)
+    known = said.kind >= 0
+    right = said.logits.argmax(axis=1) == said.kind
+    odd = [alone(item) for item in doodles_of(0, 2 * plan.doodles, seed + 3_000, plan, unseen=True)]
+    strange = say(net, corpus_of(odd, np.random.default_rng(seed))).strange
+    return calibrate(said), {
+        "held_out_strokes_right_alone": round(float(right[known & said.alone].mean()), 4),
+        "held_out_strokes_right_in_company": round(float(right[known & ~said.alone].mean()), 4),
+        "held_out_pairs_right": round(float(((said.together > 0) == (said.paired > 0.5)).mean()), 4),
+        "doodles_of_unseen_families_kept_at_95_percent": round(
+            false_positives(said.strange[known & said.alone], strange), 4
+        ),
+        "doodles_of_seen_families_kept_at_95_percent": round(
+            false_positives(said.strange[known & said.alone], said.strange[said.kind == NONE]), 4
+        ),
+    }
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
@@ -108,14 +147,27 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
         epilog="example: inklined train --seed 1 --out my-net.onnx",
     )
     parser.add_argument("--seed", type=int, default=1, help="everything follows from it (default 1)")
-    parser.add_argument("--strokes", type=int, default=200_000, help="generated strokes to train on")
+    parser.add_argument(
+        "--drawings",
+        type=int,
+        default=Plan().total,
+        help=f"generated drawings to train on (default {Plan().total:,})",
+    )
     parser.add_argument("--epochs", type=int, default=RULE.epochs, help="times each stroke is looked at")
     parser.add_argument("--threads", type=int, default=os.cpu_count() or 1, help="processor cores to use")
+    parser.add_argument(
+        "--work", default=str(WORK), help=f"where corpus and checkpoint are kept (default {WORK})"
+    )
+    parser.add_argument(
+        "--resume",
+        action="store_true",
+        help="take up the training that was stopped, after its last whole epoch",
+    )
     parser.add_argument(
         "--out", default=str(WEIGHTS), help="the ONNX file to write (default: the shipped one)"
     )
     options = parser.parse_args(arguments)
-    for name, least in (("strokes", 1), ("epochs", 1), ("threads", 1), ("seed", 0)):
+    for name, least in (("drawings", 100), ("epochs", 1), ("threads", 1), ("seed", 0)):
         if getattr(options, name) < least:
             parser.error(f"--{name} {getattr(options, name)}: it must be at least {least}")
     return options

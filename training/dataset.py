@@ -1,134 +1,147 @@
-"""Generated strokes as arrays of features: what the net is trained and calibrated on.
+"""Drawings as arrays: what the net is trained and calibrated on.
 
-No human ink comes in here. Rows are made in shards, each from its own stretch of stroke indices,
-so that the same (seed, count) gives the same arrays whatever the number of processes.
+Rows are made in shards, each from its own stretch of the plan, so that the same (plan, seed) gives the same
+arrays whatever the number of processes. Strokes are cleaned and spaced by `sketch.geometry`, in doubles, as
+the ONNX file does by itself; a test holds the two together.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from pathlib import Path
 from typing import cast
 
 import numpy as np
 from joblib import Parallel, delayed
 from numpy.typing import NDArray
 
-from data_gen.strokes import MIX, LabelledStroke, formula_strokes, generate
-from recognizer.learned.features import GLOBAL_FEATURES, PAGE_FEATURES, of_strokes, standing
-from sketch.page import STROKE_KINDS, StrokeKind
+from sketch.geometry import distinct, resample
+from training.drawings import Drawing, Plan, drawings
+from training.features import POINTS
 
 Float32 = NDArray[np.float32]
+Float64 = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
 class CorpusRule:
-    """Shares of the corpus and how strokes stand on the pages they are imagined on."""
+    """How drawings become rows."""
 
-    shard: int = 4096
-    """Strokes made at a time by one process: seconds of work, 13 MB of features."""
-    formula: float = 0.10
-    """Share of strokes that stand inside formulas, where bars and rings are mathematics."""
-    company: float = 0.5
-    """Share of the other strokes that are imagined among others; the rest stand alone."""
-    resting: float = 0.5
-    """A tap with more different points than this (of `few_points`) trembles: its size alone tells it."""
-    lasso_alone: float = 0.15
-    """The same for lassos standing alone: with nothing inside it, a lasso is a badly drawn circle."""
+    shard: int = 8_000
+    """Drawings made at a time by one process: seconds of work."""
+    most: int = 64
+    """Strokes of a page that are looked at together; of a longer one the first."""
+    untimed: float = 0.5
+    """Share of drawings whose times are left out: much ink comes without."""
+    pace: float = 0.7
+    """Standard deviation of the logarithm of how much slower or faster a page is drawn than the generator's,"""
+    hesitation: float = 0.8
+    """and of each pause between strokes: nobody knows how long people think."""
+    mixed: float = 0.12
+    """Share of pages whose strokes come in any order: drawn, erased and drawn again."""
 
 
-CORPUS_RULE = CorpusRule()
-
-RELATIVE_SIZE: dict[StrokeKind, tuple[float, float]] = {
-    "circle": (0.05, 1.0),
-    "polygon": (0.06, 1.0),
-    "spring": (0.06, 1.0),
-    "wire": (0.05, 1.0),
-    "arrow": (0.05, 1.0),
-    "tap": (0.0005, 0.009),
-    "scribble": (0.04, 1.0),
-    "lasso": (0.08, 1.0),
-    "math": (0.01, 0.6),
-}
-"""Log-uniform range of a stroke's size against its page's, by kind: rough on purpose."""
-
-FORMULA_SIZE = (0.005, 0.05)
-"""The same for strokes inside formulas: letters 2 to 4 % of a page, their bars and dots less."""
+RULE = CorpusRule()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Corpus:
-    """sequence (B, 12, 64), whole (B, 26) float32 features; kind (B,) indices into `STROKE_KINDS`."""
+    """Strokes one below the other, page by page; page k owns rows first[k] : first[k + 1].
 
-    sequence: Float32
-    whole: Float32
+    paths (S, 64, 2) in the page's frame (middle of its box, diagonal 1), distinct (S,) different raw points, span
+    (S, 2) first and last moment, timed (S,), kind and thing (S,) as in `Drawing`, first (P + 1,)."""
+
+    paths: Float32
+    distinct: Float32
+    span: Float64
+    timed: Float32
     kind: NDArray[np.int64]
+    thing: NDArray[np.int64]
+    first: NDArray[np.int64]
+
+    @property
+    def sizes(self) -> NDArray[np.int64]:
+        """Strokes of each page, (P,)."""
+        return np.diff(self.first)
+
+    def save(self, file: Path) -> None:
+        np.savez(file, **{item.name: getattr(self, item.name) for item in fields(self)})
+
+    @classmethod
+    def load(cls, file: Path) -> Corpus:
+        with np.load(file) as stored:
+            return cls(**{item.name: stored[item.name] for item in fields(cls)})
 
 
 def make_corpus(
-    count: int, seed: int, jobs: int, progress: Callable[[int], None] = lambda _done: None
+    plan: Plan, seed: int, jobs: int, progress: Callable[[float], None] = lambda _share: None
 ) -> Corpus:
-    """`count` generated strokes as features; `progress` is told the strokes done so far."""
-    firsts = list(range(0, count, CORPUS_RULE.shard))
-    tasks = (delayed(_shard)(seed, first, min(CORPUS_RULE.shard, count - first)) for first in firsts)
-    parts: list[Corpus] = []
-    done = 0
-    made = cast("Iterable[Corpus]", Parallel(n_jobs=jobs, return_as="generator")(tasks))
-    for part in made:
-        parts.append(part)
-        done += len(part.kind)
-        progress(done)
-    return _joined(parts)
+    """The plan's drawings as arrays; `progress` is told the share done so far."""
+    parts = max(1, round(plan.total / RULE.shard))
+    tasks = (delayed(_shard)(plan, seed, part, parts) for part in range(parts))
+    made: list[Corpus] = []
+    for corpus in cast("Iterable[Corpus]", Parallel(n_jobs=jobs, return_as="generator")(tasks)):
+        made.append(corpus)
+        progress(len(made) / parts)
+    return joined(made)
 
 
-def _shard(seed: int, first: int, count: int) -> Corpus:
-    in_formulas = round(count * CORPUS_RULE.formula)
-    made = generate(count - in_formulas, seed, first, MIX)
-    inside = formula_strokes(in_formulas, seed + 1, first)
-    rng = np.random.default_rng([seed, first, 7])
-    strokes = made + inside
-    sequence, overall = of_strokes([item.stroke.points for item in strokes])
-    trembling = overall[: len(made), GLOBAL_FEATURES.index("different points (few)")] > CORPUS_RULE.resting
-    page = np.concatenate([_imagined_page(made, trembling, rng), _imagined_formula(len(inside), rng)])
+def _shard(plan: Plan, seed: int, part: int, parts: int) -> Corpus:
+    return corpus_of(list(drawings(plan, seed, part, parts)), np.random.default_rng([seed, part, 17]))
+
+
+def corpus_of(pages: Sequence[Drawing], rng: np.random.Generator) -> Corpus:
+    """Drawings as arrays, their timing and their order loosened by `rng`."""
+    return joined([_page(page, rng) for page in pages])
+
+
+def _page(page: Drawing, rng: np.random.Generator) -> Corpus:
+    u = rng.random(2)
+    count = min(len(page.strokes), RULE.most)
+    order = np.arange(count)
+    known = all(stroke.times is not None for stroke in page.strokes) and u[0] >= RULE.untimed
+    if count > 2 and u[1] < RULE.mixed:
+        order, known = rng.permutation(count), False
+    strokes = [page.strokes[k] for k in order.tolist()]
+    cleaned = [distinct(stroke.points) for stroke in strokes]
+    paths = np.array([resample(points, POINTS) for points in cleaned])
+    low, high = paths.min(axis=(0, 1)), paths.max(axis=(0, 1))
+    size = float(np.hypot(*(high - low)))
+    span = np.zeros((count, 2))
+    if known:
+        span = _hurried(np.array([(s.times[0], s.times[-1]) for s in strokes if s.times is not None]), rng)
     return Corpus(
-        sequence.astype(np.float32),
-        np.concatenate([overall, page], axis=1).astype(np.float32),
-        np.array([STROKE_KINDS.index(item.kind) for item in strokes]),
+        ((paths - (low + high) / 2) / (size if size > 0 else 1.0)).astype(np.float32),
+        np.array([len(points) for points in cleaned], dtype=np.float32),
+        span,
+        np.full(count, known, dtype=np.float32),
+        np.array(page.kinds)[order],
+        np.array(page.things)[order],
+        np.array([0, count]),
     )
 
 
-def _imagined_page(
-    strokes: Sequence[LabelledStroke], trembling: NDArray[np.bool_], rng: np.random.Generator
-) -> NDArray[np.float64]:
-    """Page features as if each stroke stood on some page, or alone: (n, 4). Trembling taps stand on pages
-    only: alone, a tremble that fills the eye is a drawing."""
-    found = np.zeros((len(strokes), len(PAGE_FEATURES)))
-    for row, item, many in zip(found, strokes, trembling.tolist(), strict=True):
-        u = rng.random(4)
-        alone = CORPUS_RULE.lasso_alone if item.kind == "lasso" else 1 - CORPUS_RULE.company
-        if item.kind == "tap" and many:
-            alone = 0.0
-        if u[0] < alone:
-            continue
-        low, high = RELATIVE_SIZE[item.kind]
-        inside = 0.0
-        if item.kind == "lasso":
-            inside = 0.03 + 0.9 * u[2]
-        elif item.kind in ("circle", "polygon") and u[3] < 0.6:
-            # Taps lie inside, and a neighbour's centre may lie inside the bounding box.
-            inside = 0.4 * u[2] ** 2
-        row[:] = standing(np.array([low * (high / low) ** u[1]]), np.array([inside]))[0]
-    return found
+def _hurried(span: Float64, rng: np.random.Generator) -> Float64:
+    """The same strokes at another pace, with other pauses: (n, 2)."""
+    pace = np.exp(RULE.pace * rng.standard_normal())
+    pauses = np.concatenate([[0.0], np.maximum(span[1:, 0] - span[:-1, 1], 0.0)])
+    pauses *= pace * np.exp(RULE.hesitation * rng.standard_normal(len(span)))
+    lasted = pace * (span[:, 1] - span[:, 0])
+    begun = np.cumsum(pauses) + np.concatenate([[0.0], np.cumsum(lasted[:-1])])
+    return np.stack([begun, begun + lasted], axis=1)
 
 
-def _imagined_formula(count: int, rng: np.random.Generator) -> NDArray[np.float64]:
-    low, high = FORMULA_SIZE
-    return standing(low * (high / low) ** rng.random(count), np.zeros(count))
-
-
-def _joined(parts: Sequence[Corpus]) -> Corpus:
+def joined(parts: Sequence[Corpus]) -> Corpus:
+    """Several corpora as one."""
+    offsets = np.cumsum([0, *(part.first[-1] for part in parts)])
+    firsts = [part.first[:-1] + offset for part, offset in zip(parts, offsets, strict=False)]
     return Corpus(
-        np.concatenate([part.sequence for part in parts]),
-        np.concatenate([part.whole for part in parts]),
+        np.concatenate([part.paths for part in parts]),
+        np.concatenate([part.distinct for part in parts]),
+        np.concatenate([part.span for part in parts]),
+        np.concatenate([part.timed for part in parts]),
         np.concatenate([part.kind for part in parts]),
+        np.concatenate([part.thing for part in parts]),
+        np.concatenate([*firsts, offsets[-1:]]),
     )

@@ -1,48 +1,85 @@
-"""The net as one ONNX file: dynamic batch, temperature and softmax inside, no sidecar."""
+"""The net as one ONNX file that takes raw ink: cleaning, spacing, features, both senses, page, softmax inside.
+
+torch exports three graphs: what each stroke looks like by itself, and the answers for strokes in company
+and for strokes alone. They are put together as one with an `If`, so that a single stroke does not pay for
+what lies between strokes.
+"""
 
 from __future__ import annotations
 
 import warnings
 from pathlib import Path
 
-import numpy as np
 import onnx
-import onnxruntime
 import torch
+from onnx import GraphProto, ModelProto, NodeProto, helper
 from torch import Tensor, nn
 
-from recognizer.learned.features import GLOBAL_FEATURES, PAGE_FEATURES, POINTS, SEQUENCE_CHANNELS
-from training.dataset import Corpus
-from training.nets import StrokeNet
+from training.reader import RawReader
+
+INPUTS = ("points", "times", "stroke", "page", "timed")
+OUTPUTS = ("kinds", "strange", "together")
+BETWEEN = ("encoded", "paths", "moments", "company")
 
 
-class Calibrated(nn.Module):
-    """The net with its temperature: logits / T. The recognizer averages both directions, then applies softmax."""
+def export(reader: RawReader, target: Path, metadata: dict[str, str]) -> None:
+    """Writes the ONNX file: inputs and outputs as `training.reader` describes them, any number of points and
+    strokes."""
+    model = assembled(reader)
+    for key, text in metadata.items():
+        entry = model.metadata_props.add()
+        entry.key, entry.value = key, text
+    onnx.checker.check_model(model, full_check=True)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_bytes(model.SerializeToString())
 
-    def __init__(self, net: StrokeNet, temperature: float) -> None:
-        super().__init__()
-        self.net = net
-        self.temperature = temperature
 
-    def forward(self, sequence: Tensor, whole: Tensor) -> Tensor:
-        return self.net(sequence, whole) / self.temperature
-
-
-def export(net: StrokeNet, temperature: float, target: Path, metadata: dict[str, str]) -> None:
-    """Writes the ONNX file. Inputs "sequence" (B, 12, 64) and "whole" (B, 26) float32, output "logits" (B, 9)."""
-    example = (
-        torch.zeros(2, len(SEQUENCE_CHANNELS), POINTS),
-        torch.zeros(2, len(GLOBAL_FEATURES) + len(PAGE_FEATURES)),
+def assembled(reader: RawReader) -> ModelProto:
+    """The whole reader as one model."""
+    points, times = torch.rand(7, 2, dtype=torch.float64), torch.arange(7, dtype=torch.float64)
+    stroke, page, timed = torch.tensor([0, 0, 0, 1, 1, 2, 2]), torch.tensor([0, 0, 0]), torch.ones(3)
+    with torch.no_grad():
+        encoded, paths, moments, _ = reader.encoded(points, times, stroke, page)
+    front = _exported(reader.encoded, dict(zip(INPUTS, (points, times, stroke, page), strict=False)), BETWEEN)
+    company = {"encoded": encoded, "paths": paths, "moments": moments, "page": page, "timed": timed}
+    branches = {
+        "then_branch": _exported(reader.in_company, company, OUTPUTS),
+        "else_branch": _exported(reader.alone, {"encoded": encoded}, OUTPUTS),
+    }
+    graph = front.graph
+    stored: dict[bytes, str] = {}
+    graphs: dict[str, GraphProto] = {}
+    for name, branch in branches.items():
+        _prefixed(branch.graph, f"{name[:4]}.", (*BETWEEN, *INPUTS))
+        graphs[name] = _bare(branch.graph, graph, stored)
+    choice = helper.make_node("If", ["company"], list(OUTPUTS), name="company_or_not")
+    choice.attribute.extend(helper.make_attribute(name, branch) for name, branch in graphs.items())
+    graph.node.append(choice)
+    known = {value.name: value for value in (*graph.input, *branches["then_branch"].graph.input)}
+    outputs = list(branches["then_branch"].graph.output)
+    for value, name in zip(outputs, OUTPUTS, strict=True):
+        value.name = name
+    whole = helper.make_graph(
+        list(graph.node), "inklined", [known[name] for name in INPUTS], outputs, list(graph.initializer)
     )
-    batch = torch.export.Dim("batch")
+    model = helper.make_model(whole, opset_imports=list(front.opset_import), ir_version=10)
+    model.producer_name = "inklined"
+    return model
+
+
+def _exported(module: nn.Module, example: dict[str, Tensor], outputs: tuple[str, ...]) -> ModelProto:
+    """A part as a model of its own: strokes and points may be any number."""
+    points, strokes = torch.export.Dim("points", min=2), torch.export.Dim("strokes", min=2)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the exporter's own deprecation chatter
         program = torch.onnx.export(
-            Calibrated(net, temperature).eval(),
-            example,
-            input_names=["sequence", "whole"],
-            output_names=["logits"],
-            dynamic_shapes={"sequence": {0: batch}, "whole": {0: batch}},
+            module.eval(),
+            tuple(example.values()),
+            input_names=list(example),
+            output_names=list(outputs),
+            dynamic_shapes={
+                name: {0: points if name in ("points", "times", "stroke") else strokes} for name in example
+            },
             external_data=False,
             dynamo=True,
             verbose=False,
@@ -53,22 +90,47 @@ def export(net: StrokeNet, temperature: float, target: Path, metadata: dict[str,
     for node in model.graph.node:
         del node.metadata_props[:]
         node.doc_string = ""
-    for value in [*model.graph.input, *model.graph.output, *model.graph.value_info]:
+    for value in [*model.graph.input, *model.graph.output]:
         del value.metadata_props[:]
-    for key, text in metadata.items():
-        entry = model.metadata_props.add()
-        entry.key, entry.value = key, text
-    onnx.checker.check_model(model)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_bytes(model.SerializeToString())
+    del model.graph.value_info[:]
+    return model
 
 
-def parity(net: StrokeNet, temperature: float, file: Path, corpus: Corpus) -> float:
-    """Largest difference between torch's and onnxruntime's logits over a corpus."""
-    session = onnxruntime.InferenceSession(str(file), providers=["CPUExecutionProvider"])
-    (there,) = session.run(None, {"sequence": corpus.sequence, "whole": corpus.whole})
-    with torch.no_grad():
-        here = Calibrated(net, temperature).eval()(
-            torch.from_numpy(corpus.sequence), torch.from_numpy(corpus.whole)
-        )
-    return float(np.abs(here.numpy() - np.asarray(there)).max())
+def _prefixed(graph: GraphProto, prefix: str, kept: tuple[str, ...]) -> None:
+    """Gives every value of a branch a name that no other has, but for those that come from outside."""
+    outside = {value.name for value in graph.input} & set(kept)
+
+    def renamed(name: str) -> str:
+        return name if name in outside or not name else prefix + name
+
+    for tensor in graph.initializer:
+        tensor.name = renamed(tensor.name)
+    for node in graph.node:
+        node.name = prefix + node.name
+        _rename(node, {name: renamed(name) for name in (*node.input, *node.output)})
+    for value in graph.output:
+        value.name = renamed(value.name)
+
+
+def _bare(branch: GraphProto, graph: GraphProto, stored: dict[bytes, str]) -> GraphProto:
+    """The branch without inputs, its stored numbers moved to the outer graph, each only once."""
+    known: dict[str, str] = {}
+    for tensor in branch.initializer:
+        name = tensor.name
+        tensor.name = ""
+        content = tensor.SerializeToString()
+        if content not in stored:
+            stored[content] = name
+            tensor.name = name
+            graph.initializer.append(tensor)
+        known[name] = stored[content]
+    for node in branch.node:
+        _rename(node, known)
+    return helper.make_graph(list(branch.node), branch.name, [], list(branch.output))
+
+
+def _rename(node: NodeProto, names: dict[str, str]) -> None:
+    inputs, outputs = ([names.get(name, name) for name in side] for side in (node.input, node.output))
+    del node.input[:], node.output[:]
+    node.input.extend(inputs)
+    node.output.extend(outputs)

@@ -1,29 +1,43 @@
-"""Fitting the stroke net, reproducibly: the same seed, corpus and thread count give the same weights."""
+"""Fitting the net, reproducibly: the same seed, corpus and thread count give the same weights to the bit,
+also where training was stopped after an epoch and taken up again."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import torch
-from torch import nn
+from torch import Tensor, nn
 
+from training.batches import Answers, answers, batches, look
 from training.dataset import Corpus
-from training.nets import StrokeNet
+from training.drawings import NONE, UNASKED
+from training.nets import SIZE, NetSize, PageNet
+from training.relations import Relations
 
 
 @dataclass(frozen=True, slots=True)
 class FitRule:
     """How the net is trained."""
 
-    epochs: int = 8
+    epochs: int = 5
+    both: int = 1
+    """Of these the last ones in which strokes are looked at in both drawing senses, as the finished net does."""
     batch: int = 512
+    """Strokes in a batch, on average."""
     rate: float = 4e-3
     """Peak of a one-cycle learning rate (Smith 2018), AdamW."""
     decay: float = 1e-2
     smoothing: float = 0.01
     """Label smoothing: some drawings of one kind are another kind by anybody's eye."""
+    strange: float = 0.3
+    """Weight of telling strokes that are none of the kinds from the others,"""
+    together: float = 0.3
+    """and of telling which strokes are one thing, against the weight of the kinds, 1."""
+    clip: float = 5.0
+    """Longest gradient."""
 
 
 RULE = FitRule()
@@ -33,43 +47,130 @@ def fit(
     corpus: Corpus,
     seed: int,
     rule: FitRule = RULE,
+    size: NetSize = SIZE,
     progress: Callable[[float, float], None] = lambda _share, _loss: None,
-) -> StrokeNet:
-    """Trains on the corpus. `progress` is told the share done and the running loss."""
+    checkpoint: Path | None = None,
+    until: int | None = None,
+) -> PageNet:
+    """Trains on the corpus. `progress` is told the share done and the running loss.
+
+    checkpoint: where the state is kept after every epoch, and taken up from if it is there; until: the
+    number of epochs after which to stop for now.
+    """
     torch.manual_seed(seed)
     torch.use_deterministic_algorithms(True)
-    net = StrokeNet()
-    sequence = torch.from_numpy(corpus.sequence)
-    whole = torch.from_numpy(corpus.whole)
-    kind = torch.from_numpy(corpus.kind)
-    steps = max(1, len(kind) // rule.batch)
+    net, looked, relations = PageNet(size), look(corpus), Relations()
+    steps = max(1, len(corpus.kind) // rule.batch)
     optimizer = torch.optim.AdamW(net.parameters(), lr=rule.rate, weight_decay=rule.decay)
     schedule = torch.optim.lr_scheduler.OneCycleLR(
         optimizer, max_lr=rule.rate, total_steps=steps * rule.epochs, pct_start=0.2
     )
-    judge = nn.CrossEntropyLoss(label_smoothing=rule.smoothing)
-    order = np.random.default_rng([seed, 1])
-    running = float(np.log(9))
+    begun, running = 0, float(np.log(9))
+    if checkpoint is not None and checkpoint.exists():
+        state = torch.load(checkpoint, weights_only=True)
+        net.load_state_dict(state["net"])
+        optimizer.load_state_dict(state["optimizer"])
+        schedule.load_state_dict(state["schedule"])
+        begun, running = int(state["epochs"]), float(state["running"])
     net.train()
-    for epoch in range(rule.epochs):
-        shuffled = torch.from_numpy(order.permutation(len(kind)))
-        for step in range(steps):
-            rows = shuffled[step * rule.batch : (step + 1) * rule.batch]
+    for epoch in range(begun, min(until or rule.epochs, rule.epochs)):
+        torch.manual_seed(seed * 1_000 + epoch + 1)
+        order = np.random.default_rng([seed, 1, epoch])
+        flips = np.random.default_rng([seed, 2, epoch]) if epoch < rule.epochs - rule.both else None
+        for step, batch in enumerate(batches(corpus, steps, order)):
             optimizer.zero_grad(set_to_none=True)
-            loss = judge(net(sequence[rows], whole[rows]), kind[rows])
+            loss = loss_of(answers(net, looked, relations, batch, flips), rule)
             loss.backward()
+            nn.utils.clip_grad_norm_(net.parameters(), rule.clip)
             optimizer.step()
             schedule.step()
             running += 0.02 * (float(loss.detach()) - running)
             progress((epoch + (step + 1) / steps) / rule.epochs, running)
+        if checkpoint is not None:
+            _keep(checkpoint, net, optimizer, schedule, epoch + 1, running)
     return net.eval()
 
 
-def logits_of(net: StrokeNet, corpus: Corpus) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:
-    """The net's answers to a whole corpus, (B, 9)."""
+def loss_of(found: list[Answers], rule: FitRule) -> Tensor:
+    """Cross entropy of the kinds, of being none of them, and of which strokes are one thing, each over all that
+    is asked."""
+    kinds = torch.cat([one.kinds[_known(one)] for one in found])
+    kind = torch.cat([one.pages.kind[_known(one)] for one in found])
+    strange = torch.cat([one.strange[one.pages.there & (one.pages.kind != UNASKED)] for one in found])
+    none = torch.cat([one.pages.kind[one.pages.there & (one.pages.kind != UNASKED)] == NONE for one in found])
+    loss = nn.functional.cross_entropy(kinds, kind, label_smoothing=rule.smoothing)
+    loss = loss + rule.strange * nn.functional.binary_cross_entropy_with_logits(strange, none.float())
+    paired = [_pairs(one) for one in found if one.kinds.shape[1] > 1]
+    if any(len(truth) for _, truth in paired):
+        logits, truths = (torch.cat(parts) for parts in zip(*paired, strict=True))
+        loss = loss + rule.together * nn.functional.binary_cross_entropy_with_logits(logits, truths)
+    return loss
+
+
+def _known(one: Answers) -> Tensor:
+    return one.pages.there & (one.pages.kind >= 0)
+
+
+def _pairs(one: Answers) -> tuple[Tensor, Tensor]:
+    """Logits and truth of the pairs of which it is known whether they are one thing."""
+    thing = one.pages.thing
+    asked = (one.company > 0) & (thing[:, :, None] != NONE) & (thing[:, None] != NONE)
+    return one.together[asked], (thing[:, :, None] == thing[:, None])[asked].float()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Said:
+    """The net's answers to a whole corpus, stroke by stroke in the corpus's order: logits (S, 9), strange (S,)
+    logits, alone (S,): the stroke is its page's only one; for pairs that are asked: together logits and truth."""
+
+    logits: np.ndarray[tuple[int, int], np.dtype[np.float32]]
+    strange: np.ndarray[tuple[int], np.dtype[np.float32]]
+    kind: np.ndarray[tuple[int], np.dtype[np.int64]]
+    alone: np.ndarray[tuple[int], np.dtype[np.bool_]]
+    together: np.ndarray[tuple[int], np.dtype[np.float32]]
+    paired: np.ndarray[tuple[int], np.dtype[np.float32]]
+
+
+def say(net: PageNet, corpus: Corpus) -> Said:
+    """The net's answers to all of a corpus, by length of page."""
+    looked, relations = look(corpus), Relations()
+    parts: list[Answers] = []
     with torch.no_grad():
-        parts = [
-            net(torch.from_numpy(corpus.sequence[a : a + 4096]), torch.from_numpy(corpus.whole[a : a + 4096]))
-            for a in range(0, len(corpus.kind), 4096)
-        ]
-    return torch.cat(parts).numpy()
+        for batch in batches(corpus, max(1, len(corpus.kind) // 2048), None):
+            parts += answers(net, looked, relations, batch)
+    there = [one.pages.there for one in parts]
+    pairs = [_pairs(one) for one in parts if one.kinds.shape[1] > 1]
+    order = torch.argsort(torch.cat([one.pages.rows[t] for one, t in zip(parts, there, strict=True)]))
+    logits = torch.cat([one.kinds[t] for one, t in zip(parts, there, strict=True)])
+    strange = torch.cat([one.strange[t] for one, t in zip(parts, there, strict=True)])
+    return Said(
+        logits[order].numpy(),
+        strange[order].numpy(),
+        corpus.kind,
+        np.repeat(corpus.sizes == 1, corpus.sizes),
+        torch.cat([said for said, _ in pairs] or [torch.zeros(0)]).numpy(),
+        torch.cat([truth for _, truth in pairs] or [torch.zeros(0)]).numpy(),
+    )
+
+
+def _keep(
+    file: Path,
+    net: PageNet,
+    optimizer: torch.optim.Optimizer,
+    schedule: torch.optim.lr_scheduler.LRScheduler,
+    epochs: int,
+    running: float,
+) -> None:
+    """Writes the state beside its place first: a stop in the middle leaves the last whole one."""
+    fresh = file.with_suffix(".new")
+    torch.save(
+        {
+            "net": net.state_dict(),
+            "optimizer": optimizer.state_dict(),
+            "schedule": schedule.state_dict(),
+            "epochs": epochs,
+            "running": running,
+        },
+        fresh,
+    )
+    fresh.replace(file)

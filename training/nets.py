@@ -1,38 +1,141 @@
-"""The stroke net: a small one-dimensional convolutional network over 64 points, joined by whole-stroke numbers."""
+"""The net: a convolutional encoder of single strokes, and attention over the strokes of their page.
+
+A stroke is encoded in both drawing senses by the same convolutions, whose answers are pooled over
+both: the sense never matters. Then each stroke looks twice at the others of its page through what
+lies between the two (`training.relations`), in the manner of GATv2 (Brody, Alon and Yahav 2022): the
+message decides by itself how much it is listened to, and silence can always be chosen instead.
+"""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import torch
 from torch import Tensor, nn
 
-from recognizer.learned.features import GLOBAL_FEATURES, PAGE_FEATURES, SEQUENCE_CHANNELS
 from sketch.page import STROKE_KINDS
+from training.features import CHANNELS, WHOLE, backwards
+from training.relations import RELATIONS
 
 
-class StrokeNet(nn.Module):
-    """sequence (B, 12, 64), whole (B, 26) -> logits (B, 9) over `STROKE_KINDS`."""
+@dataclass(frozen=True, slots=True)
+class NetSize:
+    """Widths of the net: some 200,000 numbers. Tests and the ablation make it smaller."""
 
-    def __init__(self, width: int = 48) -> None:
+    width: int = 48
+    """Channels of the first convolution; the others have twice as many."""
+    stroke: int = 96
+    """Numbers that stand for a stroke."""
+    message: int = 64
+    """Numbers of a message between two strokes."""
+    heads: int = 4
+    """Messages are weighed in this many ways at once."""
+    rounds: int = 2
+    """How often strokes look at one another: an arrow's shaft, head and what it points at are two steps."""
+    dropout: float = 0.1
+
+
+SIZE = NetSize()
+
+STANDING = 2
+"""Numbers about a stroke on its page: has company, log of its size over the page's."""
+
+
+class StrokeEncoder(nn.Module):
+    """sequence (B, 15, 64), whole (B, 19) -> (B, stroke)."""
+
+    def __init__(self, size: NetSize) -> None:
         super().__init__()
-        wide = 2 * width
+        wide = 2 * size.width
         self.convolutions = nn.Sequential(
-            *_layer(len(SEQUENCE_CHANNELS), width, span=7, stride=2),
-            *_layer(width, wide, span=5, stride=2),
+            *_layer(len(CHANNELS), size.width, span=7, stride=2),
+            *_layer(size.width, wide, span=5, stride=2),
             *_layer(wide, wide, span=3, stride=1),
         )
-        self.overall = nn.Sequential(
-            nn.BatchNorm1d(len(GLOBAL_FEATURES) + len(PAGE_FEATURES)),
-            nn.Linear(len(GLOBAL_FEATURES) + len(PAGE_FEATURES), width),
-            nn.ReLU(),
-        )
-        self.judge = nn.Sequential(
-            nn.Linear(2 * wide + width, wide), nn.ReLU(), nn.Dropout(0.2), nn.Linear(wide, len(STROKE_KINDS))
-        )
+        self.overall = nn.Sequential(nn.BatchNorm1d(len(WHOLE)), nn.Linear(len(WHOLE), size.width), nn.ReLU())
+        self.joined = nn.Sequential(nn.Linear(2 * wide + size.width, size.stroke), nn.ReLU())
 
     def forward(self, sequence: Tensor, whole: Tensor) -> Tensor:
-        points = self.convolutions(sequence)
-        pooled = torch.cat([points.mean(dim=2), points.amax(dim=2), self.overall(whole)], dim=1)
-        return self.judge(pooled)
+        found = self.convolutions(torch.cat([sequence, backwards(sequence)]))
+        mean = found.mean(dim=2).reshape(2, whole.shape[0], -1).mean(dim=0)
+        most = found.amax(dim=2).reshape(2, whole.shape[0], -1).amax(dim=0)
+        return self.joined(torch.cat([mean, most, self.overall(whole)], dim=1))
+
+    def in_one_sense(self, sequence: Tensor, whole: Tensor) -> Tensor:
+        """The same from one drawing sense alone, half the work: for the greater part of training."""
+        found = self.convolutions(sequence)
+        return self.joined(torch.cat([found.mean(dim=2), found.amax(dim=2), self.overall(whole)], dim=1))
+
+
+class Round(nn.Module):
+    """One look around: strokes (P, N, stroke), relations (P, N, N, 29), company (P, N, N) -> strokes, messages."""
+
+    def __init__(self, size: NetSize) -> None:
+        super().__init__()
+        self.heads = size.heads
+        self.own = nn.Linear(size.stroke, size.message)
+        self.other = nn.Linear(size.stroke, size.message, bias=False)
+        self.between = nn.Linear(RELATIONS, size.message, bias=False)
+        self.weight = nn.Linear(size.message, size.heads)
+        self.taken = nn.Sequential(
+            nn.Linear(size.stroke + size.message, size.stroke), nn.ReLU(), nn.Linear(size.stroke, size.stroke)
+        )
+
+    def unheard(self, strokes: Tensor) -> Tensor:
+        """The same for strokes (…, stroke) that have no company."""
+        silence = torch.zeros_like(strokes[..., : self.own.out_features])
+        return strokes + self.taken(torch.cat([strokes, silence], dim=-1))
+
+    def forward(self, strokes: Tensor, relations: Tensor, company: Tensor) -> tuple[Tensor, Tensor]:
+        message = torch.relu(
+            self.own(strokes)[:, :, None] + self.other(strokes)[:, None] + self.between(relations)
+        )
+        weight = torch.exp(torch.clamp(self.weight(message), max=20.0)) * company[..., None]
+        share = weight / (1.0 + weight.sum(dim=2, keepdim=True))
+        by_head = message.unflatten(3, (self.heads, message.shape[3] // self.heads))
+        heard = (share[..., None] * by_head).sum(dim=2).flatten(2)
+        return strokes + self.taken(torch.cat([strokes, heard], dim=2)), message
+
+
+class PageNet(nn.Module):
+    """What each stroke of a page is, whether it is anything known, and which strokes are one thing."""
+
+    def __init__(self, size: NetSize = SIZE) -> None:
+        super().__init__()
+        self.size = size
+        self.encoder = StrokeEncoder(size)
+        self.standing = nn.Linear(STANDING, size.stroke)
+        self.rounds = nn.ModuleList(Round(size) for _ in range(size.rounds))
+        self.judge = nn.Sequential(
+            nn.Linear(size.stroke, size.stroke),
+            nn.ReLU(),
+            nn.Dropout(size.dropout),
+            nn.Linear(size.stroke, len(STROKE_KINDS) + 1),
+        )
+        self.pairing = nn.Linear(size.message, 1)
+
+    def forward(
+        self, encoded: Tensor, standing: Tensor, relations: Tensor, company: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """encoded (P, N, stroke) by `encoder`, standing (P, N, 2), relations (P, N, N, 29), company (P, N, N)
+        1 where two different strokes share a page -> logits of the kinds (P, N, 9), logit of being none of
+        them (P, N), logit of being one thing (P, N, N)."""
+        strokes = encoded + self.standing(standing)
+        message = torch.zeros(1)
+        for look in self.rounds:
+            strokes, message = look(strokes, relations, company)
+        answer = self.judge(strokes)
+        together = self.pairing(message + message.transpose(1, 2))[..., 0]
+        return answer[..., :-1], answer[..., -1], together
+
+    def alone(self, encoded: Tensor) -> tuple[Tensor, Tensor]:
+        """The same for strokes (s, stroke) each of which is its page's only one: kinds (s, 9), none of them (s,)."""
+        strokes = encoded + self.standing.bias
+        for look in self.rounds:
+            assert isinstance(look, Round)
+            strokes = look.unheard(strokes)
+        answer = self.judge(strokes)
+        return answer[:, :-1], answer[:, -1]
 
 
 def parameters_of(net: nn.Module) -> int:

@@ -10,7 +10,8 @@ import pytest
 from data_gen import ideals
 from data_gen.pages import page as generated
 from data_gen.problems import PROBLEMS
-from recognizer.claims import Claim, claim_for
+from recognizer.claims import Bonds, Claim, claim_for
+from recognizer.group import apart, bound
 from recognizer.interpret import Note, interpret, notes_of, reading_order
 from recognizer.oracle import Oracle
 from recognizer.roster import recognizer
@@ -263,3 +264,43 @@ def test_geometric_claims_ten_thousand_strokes_in_seconds() -> None:
     claims = recognizer("geometric").recognize(ink)
     assert time.perf_counter() - began < 90
     assert len(claims) == 10_000
+
+
+def _bonds(*told: tuple[int, int, float]) -> Bonds:
+    return Bonds(np.array([pair[:2] for pair in told]), np.array([pair[2] for pair in told]))
+
+
+def test_the_surest_pairs_are_joined_first_and_one_doubtful_bridge_joins_no_two_things() -> None:
+    bridged = _bonds((0, 1, 0.9), (1, 2, 0.6), (2, 3, 0.95), (4, 5, 0.4))
+    assert sorted(bound([0, 1, 2, 3, 4, 5], bridged)) == [(0, 1), (2, 3), (4,), (5,)]
+
+
+def test_strokes_that_are_not_asked_about_take_no_part() -> None:
+    assert bound([7, 3], _bonds((3, 5, 0.9), (5, 7, 0.9))) == [(3,), (7,)]
+
+
+def test_things_are_apart_where_the_mean_over_their_pairs_says_so() -> None:
+    bonds = _bonds((0, 1, 0.9), (1, 2, 0.9))
+    assert apart([0, 1, 2, 3], bonds) and not apart([0, 1, 2], bonds)
+
+
+class Bound(Told):
+    """Says besides which strokes are one thing."""
+
+    def __init__(self, bonds: Bonds, *claims: StrokeKind) -> None:
+        super().__init__(*claims)
+        self._bonds = bonds
+
+    def read(self, ink: Ink) -> tuple[tuple[Claim, ...], Bonds]:
+        return self.recognize(ink), self._bonds
+
+
+def test_who_says_what_belongs_together_is_heard() -> None:
+    """Two boxes that share a corner: geometry alone may walk from one to the other."""
+    sides = [
+        np.array(side, dtype=float) for side in ([(0, 0), (90, 0), (90, 60)], [(90, 60), (0, 60), (0, 0)])
+    ]
+    ink = page(*(side + shift for shift in ((0.0, 0.0), (90.0, 60.0)) for side in sides))
+    told = interpret(ink, Bound(_bonds((0, 1, 0.9), (2, 3, 0.9)), *["polygon"] * 4))
+    assert {component.strokes for component in told.components} == {(0, 1), (2, 3)}
+    assert {component.kind for component in told.components} == {"polygon"}
