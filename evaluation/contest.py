@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from evaluation.lessons import Lesson
 from evaluation.page_contest import PageResult, page_contest
 from evaluation.parallel import Progress, silent
 from evaluation.stroke_contest import StrokeResult, stroke_contest
@@ -32,11 +33,15 @@ class Contest:
 
 
 def contest_on_files(
-    paths: Sequence[Path], names: Sequence[str], jobs: int = 1, progress: Progress = silent
+    paths: Sequence[Path],
+    names: Sequence[str],
+    jobs: int = 1,
+    progress: Progress = silent,
+    without: Lesson | None = None,
 ) -> Contest:
-    """The contest on labelled JSON Lines. Raises FileError for an unreadable file, ValueError for a
-    recognizer that is not known."""
-    suite = strokes_from_files(paths)
+    """The contest on labelled JSON Lines, without the rows of a lesson's writers. Raises FileError for an unreadable
+    file, ValueError for a recognizer that is not known."""
+    suite = strokes_from_files(paths, without)
     return Contest(tuple(names), None, suite, stroke_contest(suite, names, jobs, progress), None, ())
 
 

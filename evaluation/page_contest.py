@@ -17,13 +17,13 @@ from evaluation.metrics.geometry import GeometryError, geometry_error
 from evaluation.metrics.matching import match_components
 from evaluation.metrics.motion import AT, MotionError, motion_error, same_outcome, until
 from evaluation.parallel import Progress, in_parallel, silent
+from evaluation.rivals import rival
 from evaluation.suites import PageSuite
 from physics.outcome import Outcome, outcome
 from physics.pipeline import Motion, move
 from recognizer.claims import Recognizer
 from recognizer.interpret import interpret, notes_of
 from recognizer.oracle import Oracle
-from recognizer.roster import recognizer
 from sketch.page import Sketch, StrokeKind
 
 ORACLE = "oracle"
@@ -86,8 +86,8 @@ def read_page(page: Page, name: str) -> Reading:
 
 def claimed(page: Page, name: str) -> Sketch:
     """The page as the recognizer of that name reads it; "oracle" is told what each stroke is."""
-    rival: Recognizer = Oracle(page.truth) if name == ORACLE else _here(name)
-    return interpret(page.truth.ink, rival, notes_of(page.truth))
+    reader: Recognizer = Oracle(page.truth) if name == ORACLE else _here(name)
+    return interpret(page.truth.ink, reader, notes_of(page.truth))
 
 
 def score_page(page: Page, truth: Reading, claim: Reading) -> PageScore:
@@ -121,4 +121,4 @@ def _reading(name: str, claim: Sketch, seconds: float) -> Reading:
 @lru_cache
 def _here(name: str) -> Recognizer:
     """This process's own recognizer of that name: loaded once."""
-    return recognizer(name)
+    return rival(name)

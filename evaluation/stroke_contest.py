@@ -18,9 +18,9 @@ from scipy.stats import binomtest
 from evaluation.latency import Latency, latency
 from evaluation.metrics.strokes import StrokeScores, score
 from evaluation.parallel import Progress, in_parallel, silent
+from evaluation.rivals import rival
 from evaluation.suites import StrokeSuite, claim_of_row
 from recognizer.claims import Claim, Recognizer
-from recognizer.roster import recognizer
 from sketch.ink import Ink
 from sketch.page import STROKE_KINDS, StrokeKind
 
@@ -70,13 +70,15 @@ def stroke_contest(
 ) -> tuple[StrokeResult, ...]:
     """Runs the recognizers of these names over the suite, in `jobs` processes, then takes their
     latency in this one. Raises ValueError for a name that is not known."""
-    for name in names:
-        recognizer(name)
+    for k, name in enumerate(names):
+        progress("Preparing recognizers", k, len(names))
+        rival(name)
+    progress("Preparing recognizers", len(names), len(names))
     claimed = _claims(suite.inks, names, jobs, progress)
     results: list[StrokeResult] = []
     for k, name in enumerate(names):
         progress("Timing recognizers", k, len(names))
-        results.append(_result(suite, recognizer(name), claimed[name]))
+        results.append(_result(suite, rival(name), claimed[name]))
     progress("Timing recognizers", len(names), len(names))
     return tuple(results)
 
@@ -99,27 +101,27 @@ def _claims(
 
 def _claim_batch(task: tuple[str, Sequence[Ink]]) -> list[Claim]:
     name, inks = task
-    rival = _here(name)
-    return [claim_of_row(rival.recognize(ink)) for ink in inks]
+    here = _here(name)
+    return [claim_of_row(here.recognize(ink)) for ink in inks]
 
 
 @lru_cache
 def _here(name: str) -> Recognizer:
     """This process's own recognizer of that name: loaded once."""
-    return recognizer(name)
+    return rival(name)
 
 
-def _result(suite: StrokeSuite, rival: Recognizer, claims: Sequence[Claim]) -> StrokeResult:
+def _result(suite: StrokeSuite, recognizer: Recognizer, claims: Sequence[Claim]) -> StrokeResult:
     labels = suite.labels
 
     def over(chosen: Sequence[bool]) -> StrokeScores:
         rows = [k for k, yes in enumerate(chosen) if yes]
         return score([labels[k] for k in rows], [claims[k] for k in rows])
 
-    claimable = [label in rival.claims for label in labels]
-    beyond = Counter(label for label in labels if label not in rival.claims)
+    claimable = [label in recognizer.claims for label in labels]
+    beyond = Counter(label for label in labels if label not in recognizer.claims)
     return StrokeResult(
-        name=rival.name,
+        name=recognizer.name,
         scores=score(labels, claims),
         single=over(suite.single),
         several=over([not single for single in suite.single]),
@@ -127,7 +129,7 @@ def _result(suite: StrokeSuite, rival: Recognizer, claims: Sequence[Claim]) -> S
         claimable=over(claimable),
         unclaimable={**{kind: beyond[kind] for kind in STROKE_KINDS if beyond[kind]}, **suite.unknown},
         rejected=sum(claim.rejected for claim in claims),
-        latency=latency(rival, suite.inks),
+        latency=latency(recognizer, suite.inks),
         right=tuple(claim.kind == label for claim, label in zip(claims, labels, strict=True)),
     )
 

@@ -17,6 +17,7 @@ import numpy as np
 from data_gen import pages as page_generator
 from data_gen import strokes as stroke_generator
 from data_gen.pages import Page
+from evaluation.lessons import Lesson
 from recognizer.claims import Claim
 from sketch.files import jsonl
 from sketch.files.errors import FileError
@@ -68,11 +69,17 @@ def generated_pages(count: int, seed: int) -> PageSuite:
     return PageSuite(f"{count} generated pages, seed {seed}", tuple(page_generator.pages(count, seed)))
 
 
-def strokes_from_files(paths: Sequence[Path]) -> StrokeSuite:
-    """All rows of some JSON Lines files as one suite. Raises FileError when one is unreadable, or when
-    no row of any bears a label."""
+def strokes_from_files(paths: Sequence[Path], without: Lesson | None = None) -> StrokeSuite:
+    """All rows of some JSON Lines files as one suite, but for those by the writers of a lesson. Raises FileError when
+    one is unreadable, or when no row of any bears a label, or none is left."""
     loaded = [jsonl.read(path) for path in paths]
-    rows = [row for file in loaded for row in file.rows]
+    every = [row for file in loaded for row in file.rows]
+    rows = [row for row in every if without is None or not without.taught_by(row)]
+    if not rows:
+        names = ", ".join(map(str, paths))
+        raise FileError(
+            names, "all rows are by writers that the rivals learn from; ask for fewer --templates"
+        )
     if all(row.label is None for row in rows):
         names = ", ".join(map(str, paths))
         raise FileError(names, "no row bears a label; a contest needs rows with a label and strokes")
@@ -84,7 +91,8 @@ def strokes_from_files(paths: Sequence[Path]) -> StrokeSuite:
         labels=tuple(cast(StrokeKind, row.label) for row in known),
         unknown=_count(str(row.label) for row in rows if row.label not in (None, *STROKE_KINDS)),
         unlabelled=sum(row.label is None for row in rows),
-        notices=tuple(
+        notices=_left_out(len(every) - len(rows))
+        + tuple(
             f"{path.name}, {notice}"
             for path, file in zip(paths, loaded, strict=True)
             for notice in file.notices
@@ -96,6 +104,10 @@ def claim_of_row(claims: Sequence[Claim]) -> Claim:
     """What a row of several strokes is taken for: the kind with the highest score summed over its
     strokes, since the row bears one label for all of them; rejected when all of them are."""
     return Claim(np.mean([claim.scores for claim in claims], axis=0), all(claim.rejected for claim in claims))
+
+
+def _left_out(rows: int) -> tuple[str, ...]:
+    return (f"{rows} rows are left out: rivals learnt from their writers.",) if rows else ()
 
 
 def _count(labels: Iterable[str]) -> dict[str, int]:

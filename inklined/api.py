@@ -22,21 +22,21 @@ def analyze(page: Ink | str | PathLike[str], recognizer: str = RECOGNIZER) -> Sk
     what, and its mathematics.
 
     page: ink, or a file (.inklined, .inkml, .jsonl, .jsonl.gz: its first row); typed mathematics of
-    an .inklined file is kept and associated anew. recognizer: a name of `recognizer.roster.ROSTER`.
+    an .inklined file is kept and associated anew. recognizer: a name that `inklined recognizers` lists.
     Raises FileError for an unreadable file, ValueError for an unknown name.
     """
     from pathlib import Path
 
+    from evaluation.rivals import rival as called
     from recognizer.interpret import interpret, notes_of
-    from recognizer.roster import recognizer as called
     from sketch.files.pages import open_page
     from sketch.ink import Ink
 
-    rival = called(recognizer)
+    reader = called(recognizer)
     if isinstance(page, Ink):
-        return interpret(page, rival)
+        return interpret(page, reader)
     opened = open_page(Path(page))
-    return interpret(opened.ink, rival, notes_of(opened))
+    return interpret(opened.ink, reader, notes_of(opened))
 
 
 def move(sketch: Sketch, seconds: float = 2.0, rate: float = 60.0) -> Motion:
@@ -62,7 +62,7 @@ def compare(
     strokes: int = 1000,
     seed: int = 0,
 ) -> tuple[StrokeResult, ...]:
-    """Scores recognizers (all of them when none is named) on labelled JSON Lines files, or on
+    """Scores recognizers (those of `recognizer.roster.ROSTER` when none is named) on labelled JSON Lines files, or on
     `strokes` generated strokes when there is no file. Raises FileError, ValueError as `analyze`."""
     from pathlib import Path
 

@@ -13,13 +13,13 @@ from collections.abc import Sequence
 
 import typer
 
-from inklined.commands import compare, generate, observe, problems, reading, train
+from inklined.commands import compare, generate, observe, problems, reading, recognizers, train
 
 HELP = """Ink that knows physics: reads pages of pen strokes, sets them in motion, and compares
 recognizers by what comes out. Without a command: inklined compare."""
 
 REPEATED: dict[str, tuple[str, ...]] = {
-    "compare": ("--ink", "--recognizer"),
+    "compare": ("--ink", "--recognizer", "--train"),
     "problems": ("--family", "--recognizer"),
     "observe": ("--quantity",),
 }
@@ -36,6 +36,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 compare.register(app)
+recognizers.register(app)
 reading.register(app)
 observe.register(app)
 generate.register(app)

@@ -25,7 +25,8 @@ def known(option: str, values: Iterable[str], names: Collection[Name]) -> tuple[
 def rivals(values: Iterable[str]) -> tuple[str, ...]:
     """Names of recognizers, ours or "module:Class" for somebody's own, each once. Raises typer.BadParameter
     for one that cannot be had."""
-    from recognizer.roster import ROSTER, recognizer
+    from evaluation.rivals import known as all_rivals
+    from recognizer.roster import recognizer
 
     for value in values:
         if ":" in value:
@@ -34,7 +35,7 @@ def rivals(values: Iterable[str]) -> tuple[str, ...]:
             except ValueError as error:
                 raise typer.BadParameter(f"--recognizer {error}") from None
         else:
-            known("--recognizer", [value], (*ROSTER, "module:Class (your own)"))
+            known("--recognizer", [value], (*all_rivals(), "module:Class (your own)"))
     return tuple(dict.fromkeys(values))
 
 

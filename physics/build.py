@@ -17,6 +17,7 @@ from physics.parts.courses import courses_of
 from physics.parts.given import Page, spoken, to_metres
 from physics.parts.links import links_of
 from physics.parts.solids import Figure, body_of, solids_of
+from physics.rectify.unmet import unmet
 from physics.scene import Scene
 from sketch.page import Sketch
 from sketch.shapes import Polygon
@@ -49,6 +50,7 @@ def build(sketch: Sketch, meanings: Meanings | None = None) -> Built:
     bodies = tuple(body_of(page, figure, courses) for figure in solids)
     springs, wires = links_of(page, {body.label: body for body in bodies})
     acting = act(page, bodies)
+    notices += unmet(sketch, page.spoken)
     scene = Scene(
         acting.bodies, springs, wires, acting.forces, acting.supports, (0.0, -g), courses=tuple(courses)
     )

@@ -14,7 +14,7 @@ import numpy as np
 import shapely
 
 from sketch.geometry import contains, nearest_on_segment, signed_distance, solid_area
-from sketch.ink import FloatArray
+from sketch.ink import FloatArray, Stroke
 from sketch.page import Component
 from sketch.shapes import Circle, Link, Point, Polygon, Solid, Spring, Wire, outline
 
@@ -37,17 +37,25 @@ ATTACH = AttachRule()
 class Solids:
     """The page's solids, indexed so that a search looks at the near ones only."""
 
-    def __init__(self, shapes: Sequence[Solid]) -> None:
+    def __init__(self, shapes: Sequence[Solid], drawn: Sequence[Sequence[Stroke]] = ()) -> None:
+        """drawn: the strokes of each solid, in step; a link is drawn to the ink as well as to the shape."""
         self.shapes = tuple(shapes)
+        self.ink = [
+            shapely.GeometryCollection([_line(stroke.points) for stroke in strokes]) for strokes in drawn
+        ]
         self.sizes = np.sqrt([solid_area(shape) for shape in self.shapes])
         reach = max(ATTACH.tap, ATTACH.of_solid) * self.sizes
         boxes = [_box(shape) for shape in self.shapes]
+        for box, line in zip(boxes, self.ink, strict=False):
+            left, top, right, bottom = line.bounds
+            box[:2], box[2:] = np.minimum(box[:2], (left, top)), np.maximum(box[2:], (right, bottom))
         corners = np.array(boxes).reshape(-1, 4) + reach[:, None] * np.array([-1.0, -1.0, 1.0, 1.0])
         self._tree = shapely.STRtree(shapely.box(*corners.T)) if boxes else shapely.STRtree([])
 
     def near(self, point: Point, reach: float = 0.0) -> list[tuple[float, int]]:
         """(signed distance, index) of the solids that may lie within reach, nearest first."""
-        found = self._tree.query(shapely.Point(point).buffer(reach) if reach > 0 else shapely.Point(point))
+        x, y = point
+        found = self._tree.query(shapely.box(x - reach, y - reach, x + reach, y + reach))
         return sorted((signed_distance(self.shapes[index], point), index) for index in found.tolist())
 
     def holds(self, point: FloatArray) -> bool:
@@ -57,13 +65,15 @@ class Solids:
 
     def at_end(self, link: Link, end: Point) -> list[int]:
         """Indices of the solids to which this end of a link can be attached, the likeliest first:
-        by the distance to the boundary, whether the pen stopped short or ran inside."""
+        by the distance to the boundary or to its ink, whether the pen stopped short or ran inside."""
         length = float(np.hypot(link.end[0] - link.start[0], link.end[1] - link.start[1]))
-        close = [
-            (abs(distance), index)
-            for distance, index in self.near(end, ATTACH.of_link * length)
-            if distance <= max(ATTACH.of_link * length, ATTACH.of_solid * self.sizes[index])
-        ]
+        close: list[tuple[float, int]] = []
+        for distance, index in self.near(end, ATTACH.of_link * length):
+            away = abs(distance)
+            if self.ink:
+                away = min(away, self.ink[index].distance(shapely.Point(end)))
+            if min(distance, away) <= max(ATTACH.of_link * length, ATTACH.of_solid * self.sizes[index]):
+                close.append((away, index))
         return [index for _, index in sorted(close)]
 
     def ends(self, link: Link) -> tuple[int, int] | None:
@@ -113,3 +123,7 @@ def _from_outline(component: Component, point: Point) -> float:
 def _box(shape: Solid) -> FloatArray:
     path = outline(shape)
     return np.concatenate([path.min(axis=0), path.max(axis=0)])
+
+
+def _line(points: FloatArray) -> shapely.LineString | shapely.Point:
+    return shapely.LineString(points) if np.ptp(points, axis=0).any() else shapely.Point(points[0])

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from sketch.ink import Ink
 from sketch.page import StrokeKind
@@ -21,8 +22,11 @@ class EraseRule:
 
     hits: int = 3
     """Crossings of one stroke: a scribble passes to and fro over what it erases."""
-    covered: float = 0.5
-    """Share of a stroke's points within the scribble's hull: a small letter may be crossed once."""
+    covered: float = 0.4
+    """Share of a stroke's points within the scribble's hull: a small letter may be crossed once, and a long line
+    is rubbed out by its middle."""
+    filled: float = 0.35
+    """Share of the hull of a stroke that the scribble's hull fills: a ring may be rubbed out from within."""
     latest: int = 64
     """Latest earlier strokes within a scribble's box that are looked at: more than a formula."""
 
@@ -31,7 +35,8 @@ ERASE = EraseRule()
 
 
 def erased(ink: Ink, kinds: Sequence[StrokeKind | None], rule: EraseRule = ERASE) -> set[int]:
-    """Indices of the strokes that later scribbles erase; gestures are not erased."""
+    """Indices of the strokes that later scribbles erase. Gestures are not erased, but for taps: a tap goes with
+    what it was on."""
     scribbles = [index for index, kind in enumerate(kinds) if kind == "scribble"]
     if not scribbles:
         return set()
@@ -40,6 +45,8 @@ def erased(ink: Ink, kinds: Sequence[StrokeKind | None], rule: EraseRule = ERASE
     gone: set[int] = set()
     for scribble in scribbles:
         gone.update(_gone_over(ink, kinds, lines, tree, scribble, rule))
+        under = tree.query(lines[scribble].convex_hull, predicate="contains").tolist()
+        gone.update(index for index in under if index < scribble and kinds[index] == "tap")
     return gone
 
 
@@ -80,6 +87,7 @@ def _gone_over(
         if kinds[index] not in ("scribble", "lasso", "tap")
         and (
             float(shapely.contains_xy(hull, *ink[index].points.T).mean()) >= rule.covered
+            or _filled(hull, lines[index].convex_hull) >= rule.filled
             or _crossings(lines[scribble], lines[index]) >= rule.hits
         )
     ]
@@ -88,6 +96,11 @@ def _gone_over(
 def _lines(ink: Ink) -> list[shapely.LineString]:
     """Each stroke as a line; a dot as one of no length."""
     return [shapely.LineString(np.repeat(s.points, 2, axis=0) if len(s) == 1 else s.points) for s in ink]
+
+
+def _filled(hull: BaseGeometry, other: BaseGeometry) -> float:
+    """Share of the other hull's area that lies in the hull; 0 for one without area."""
+    return hull.intersection(other).area / other.area if other.area > 0 else 0.0
 
 
 def _crossings(one: shapely.LineString, other: shapely.LineString) -> int:

@@ -41,6 +41,11 @@ class FitRule:
     """Share of the perimeter below which a side was cut off a sharp corner by sampling,"""
     sharp: float = radians(165)
     """unless the outline turns by more: the tip of a sliver of 15°."""
+    tip: float = radians(8)
+    """A corner sharper than this is the end of a plank whose short side was lost, not the tip of a wedge: it is given
+    the width that its ink has"""
+    end: float = 0.06
+    """within this share of the outline's extent from it."""
     side: int = 48
     """Points of a side that was drawn as a stroke of its own."""
     corner: float = 0.12
@@ -151,7 +156,7 @@ def fit_polygon(points: FloatArray) -> Polygon | None:
     corners = _straightened(_side_corners(outline))
     if len(corners) < 3:
         return None
-    return Polygon(low + size * _convex(corners))
+    return Polygon(low + size * _blunted(_convex(corners), (points - low) / size))
 
 
 def fit_spring(points: FloatArray) -> Spring | None:
@@ -286,6 +291,32 @@ def _convex(corners: FloatArray) -> FloatArray:
         if sense * ((b - a)[0] * (c - b)[1] - (b - a)[1] * (c - b)[0]) <= 0:
             kept.remove(index)
     return corners[kept]
+
+
+def _blunted(corners: FloatArray, ink: FloatArray) -> FloatArray:
+    """The corners with two in the place of each needle's tip, as far apart as the ink is wide there."""
+    steps = np.roll(corners, -1, axis=0) - corners
+    before = -np.roll(steps, 1, axis=0)
+    cross = before[:, 0] * steps[:, 1] - before[:, 1] * steps[:, 0]
+    inside = np.abs(np.arctan2(cross, np.einsum("ij,ij->i", before, steps)))
+    found: list[FloatArray] = []
+    for k, corner in enumerate(corners):
+        if inside[k] >= FIT.tip:
+            found.append(corner)
+            continue
+        one, other = (way[k] / np.hypot(*way[k]) for way in (before, steps))
+        along = (one + other) / np.hypot(*(one + other))  # from the tip into the needle
+        near = ink[(ink - corner) @ along <= FIT.end]
+        if not len(near):
+            found.append(corner)
+            continue
+        across = np.array([-along[1], along[0]])
+        if one @ across > other @ across:
+            across = -across
+        back = float(((near - corner) @ along).min())
+        wide = (near - corner) @ across
+        found += [corner + back * along + edge * across for edge in (float(wide.min()), float(wide.max()))]
+    return _convex(np.array(found)) if len(found) > len(corners) else corners
 
 
 def _doubled_area(corners: FloatArray) -> float:

@@ -24,10 +24,10 @@ from sketch.ink import FloatArray, Ink
 class GroupRule:
     """What is near enough to belong together."""
 
-    joint: tuple[float, float] = (0.15, 0.04)
+    joint: tuple[float, float] = (0.25, 0.05)
     """Gap between two strokes' ends over the shorter and the longer stroke's size, added up, where an
     outline goes on: a corner is missed by a share of either side."""
-    closed: float = 0.06
+    closed: float = 0.08
     """Gap between a stroke's own ends over its size, below which it is an outline by itself."""
     neighbours: int = 6
     """Nearest ends that are looked at: where sides, wires and a letter meet there are no more."""

@@ -104,7 +104,7 @@ def links(
         for index, kind in enumerate(kinds)
         if kind == wanted and index not in used and (shape := fit(wanted, [ink[index]])) is not None
     ]
-    first = attached(candidates, solids)
+    first = attached(ink, candidates, solids)
     linked = {stroke for link in first for stroke in link.strokes}
     drawn = used | linked
     inside = Solids([_solid(part.shape) for part in solids])
@@ -115,12 +115,13 @@ def links(
         or (kind == "tap" and not inside.holds(ink[index].points.mean(axis=0)))
     ]
     kept = _without_letters(ink, solids, first, letters, rule)
-    return kept, attached(candidates, kept)
+    return kept, attached(ink, candidates, kept)
 
 
-def attached(candidates: Sequence[Part], solids: Sequence[Part]) -> list[Part]:
+def attached(ink: Ink, candidates: Sequence[Part], solids: Sequence[Part]) -> list[Part]:
     """The links whose two ends are attached, with the positions of the solids they end at."""
-    index = Solids([_solid(part.shape) for part in solids])
+    drawn = [[ink[stroke] for stroke in part.strokes] for part in solids]
+    index = Solids([_solid(part.shape) for part in solids], drawn)
     return [
         Part(part.shape, part.strokes, ends)
         for part in candidates

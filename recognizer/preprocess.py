@@ -45,5 +45,9 @@ def unit_path(stroke: Stroke) -> FloatArray:
 
 def spaced(path: FloatArray) -> FloatArray:
     """A unit path at equal spacing, about `SPACING.step` apart: (n, 2)."""
-    count = round(path_length(path) / SPACING.step) + 1
-    return resample(path, min(max(count, SPACING.fewest), SPACING.most))
+    return resample(path, points_for(path_length(path)))
+
+
+def points_for(length: float) -> int:
+    """Points of a unit path of this length."""
+    return min(max(round(length / SPACING.step) + 1, SPACING.fewest), SPACING.most)

@@ -1,4 +1,4 @@
-"""The rivals by name. Each is imported when it is asked for, not before: one rival's weights or
+"""The rivals that are ready as they come, by name; the published ones, which learn first, are in `published`. Each is imported when it is asked for, not before: one rival's weights or
 libraries cost nothing to whoever runs another."""
 
 from __future__ import annotations
@@ -6,6 +6,7 @@ from __future__ import annotations
 import importlib
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 from recognizer.claims import Recognizer
@@ -29,11 +30,38 @@ def _learned() -> Recognizer:
     return Learned()
 
 
+def _hybrid() -> Recognizer:
+    from recognizer.hybrid import Hybrid
+
+    return Hybrid()
+
+
 ROSTER: dict[str, Callable[[], Recognizer]] = {
     "paper": _paper,
     "geometric": _geometric,
     "learned": _learned,
+    "hybrid": _hybrid,
 }
+
+
+@dataclass(frozen=True, slots=True)
+class Ours:
+    """What a rival of the roster is, in a line; whose; and how it comes to know ink."""
+
+    summary: str
+    source: str
+    knows: str
+
+
+OURS: dict[str, Ours] = {
+    "paper": Ours("The published rules of a sketch-based physics tutor", "Cheema and LaViola", "no ink"),
+    "geometric": Ours("Hand-made geometry, stroke by stroke and against the page", "inklined", "no ink"),
+    "learned": Ours(
+        "A small net on 64 points of a stroke and its page", "inklined", "generated ink; weights are shipped"
+    ),
+    "hybrid": Ours("The net and the geometry, stacked", "inklined", "generated ink; weights are shipped"),
+}
+assert OURS.keys() == ROSTER.keys()
 
 
 def recognizer(name: str) -> Recognizer:

@@ -144,18 +144,22 @@ def ends(shape: Shape) -> list[Point]:
             return [shape.start, shape.end]
 
 
+ANGLES = ("theta", "alpha", "beta")
+
+
 def angles_off(sketch: Sketch) -> dict[str, float]:
     """For every component that an angle is said of, by how much it fails, radians; measured anew here. A page's
-    angles are said at the foot of a triangle, and of links from the end that the anchor is nearer to."""
+    angles are said at the foot of a triangle, and of links from the end that the anchor is nearer to. The newest counts."""
     found: dict[str, float] = {}
     for association in sketch.associations:
         name, _, value = (sketch.expressions[association.expression].text or "").partition(" = ")
-        if not name.startswith("theta"):
+        shape = sketch.component(association.component).shape
+        if not name.startswith(ANGLES) or isinstance(shape, Circle):
             continue
         wanted = float(sketch.expressions[association.expression].tree.rhs) if value else 0.0
-        shape = sketch.component(association.component).shape
         if isinstance(shape, Polygon):
-            found[association.component] = abs(_foot_angle(shape) - wanted)
+            if len(shape.vertices) == 3:
+                found[association.component] = abs(_foot_angle(shape) - wanted)
             continue
         (x1, y1), (x2, y2) = ends(shape)
         level, rise = abs(x2 - x1), abs(y2 - y1)
@@ -176,7 +180,4 @@ def _foot_angle(triangle: Polygon) -> float:
         angles.append(abs(atan2(one[0] * other[1] - one[1] * other[0], one @ other)))
     corner = int(np.argmin(np.abs(np.array(angles) - pi / 2)))
     steep = [abs(vertices[k][1] - vertices[corner][1]) for k in range(3)]
-    (foot,) = (
-        k for k in range(3) if k != corner and steep[k] == min(steep[j] for j in range(3) if j != corner)
-    )
-    return angles[foot]
+    return angles[min((k for k in range(3) if k != corner), key=lambda k: steep[k])]

@@ -3,7 +3,7 @@
 Kinematics after the sigma-lognormal model (Plamondon 1995; O'Reilly and Plamondon 2009): a movement is the
 vector sum of strokelets, each travelling its own piece of the path with a lognormal speed, the next one
 starting before the last has ended, so that corners are rounded by overlap in time as a hand rounds them.
-Strokelets part at corners, and after half a turn and more of smooth path; within one the pen slows down where
+Strokelets part at corners, and after two turns of smooth path; within one the pen slows down where
 the path bends, by the two-thirds power law (Viviani and Flash 1995: speed as curvature to the power −1/3).
 
 Frame: page units, y down; seconds.
@@ -30,8 +30,12 @@ CORNER_TURN = 0.7
 """A path that turns by more than this within ±2 points has a corner there, radians,"""
 CONCENTRATED = 0.65
 """if at least this share of the turn within ±6 points falls there: a loop of a coil has none."""
-SMOOTH_TURN = 3.6
-"""A new strokelet begins after this much smooth turning, radians: a ring is drawn in two."""
+SMOOTH_TURN = 13.0
+"""A new strokelet begins after this much smooth turning, radians: a ring is drawn in one, two loops of a coil too."""
+LONG_TURN = 4.5
+"""A strokelet that turns by more than this takes longer in proportion, radians,"""
+STEADY_TURN, STEADY = 6.0, 0.5
+"""and one that turns by so much is half as peaked in speed as a straight one."""
 BEND_SPAN = 4
 """Curvature is taken over ± this many points."""
 LEAST_BEND = 1.5
@@ -52,6 +56,8 @@ SHORTEST, SLOWEST = 0.03, 25.0
 """No strokelet is quicker, no stroke slower than this, seconds."""
 UNEVEN = 0.12
 """Standard deviation of the logarithm of a strokelet's time."""
+PER_TURN = 2.8
+"""Samples for each radian that a stroke turns at least: nobody draws rings so fast that a slow device sees triangles."""
 FEWEST, MOST = 2, 360
 """Samples of a stroke that moves; more are thinned evenly, real strokes of these kinds stay below."""
 USUAL_RATE, USUAL_PACE = 100.0, 5.5
@@ -70,10 +76,14 @@ def travelled(
     total_length = along[-1]
     turned = _turned_so_far(path)
     breaks, smooth = _strokelets(turned)
-    start, end = _timing(along, breaks, smooth, habits, on, key)
+    start, end = _timing(along, turned, breaks, smooth, habits, on, key)
     total = end[-1]
     rate = habits[SAMPLES] if on[RATE] else USUAL_RATE
-    count = min(max(ceil(total * rate) + 1, FEWEST), MOST)
+    bends = 0.0
+    for k in range(1, len(turned)):
+        bends += abs(turned[k] - turned[k - 1])
+    fewest = min(FEWEST + int(PER_TURN * bends), 60)
+    count = min(max(ceil(total * rate) + 1, fewest), MOST)
     interval = total / (count - 1)
     times = np.empty(count)
     for i in range(count):
@@ -93,8 +103,10 @@ def travelled(
         if k == len(start) - 1:
             closing = count - 1
         j = first
+        steady = STEADY * min(abs(turned[last] - turned[first]) / STEADY_TURN, 1.0)
         for i in range(opening, closing):
-            share = _progress((i * interval - start[k]) / (end[k] - start[k]))
+            phase = min(max((i * interval - start[k]) / (end[k] - start[k]), 0.0), 1.0)
+            share = steady * phase + (1.0 - steady) * _progress(phase)
             wanted = effort[first] + share * (effort[last] - effort[first])
             while j < last - 1 and effort[j + 1] <= wanted:
                 j += 1
@@ -180,6 +192,7 @@ def _strokelets(turned: FloatArray) -> tuple[Indices, NDArray[np.bool_]]:
 @part
 def _timing(
     along: FloatArray,
+    turned: FloatArray,
     breaks: Indices,
     smooth: NDArray[np.bool_],
     habits: FloatArray,
@@ -197,7 +210,8 @@ def _timing(
     for k in range(count):
         length = along[breaks[k + 1]] - along[breaks[k]]
         uneven = exp(UNEVEN * normal(state)) if on[SPEED] else 1.0
-        duration = max(usual * (length / mean) ** WITHIN, SHORTEST) * uneven
+        bend = abs(turned[breaks[k + 1]] - turned[breaks[k]])
+        duration = max(usual * (length / mean) ** WITHIN, SHORTEST) * uneven * max(1.0, bend / LONG_TURN)
         if k > 0:
             shared = habits[OVERLAP] if on[ROUNDING] else 0.0
             if smooth[k]:
@@ -251,7 +265,7 @@ _PROGRESS = _lognormal_bell()
 
 @part
 def _progress(phase: float) -> float:
-    place = min(max(phase, 0.0), 1.0) * PHASES
+    place = phase * PHASES
     low = min(int(place), PHASES - 1)
     return _PROGRESS[low] + (place - low) * (_PROGRESS[low + 1] - _PROGRESS[low])
 

@@ -4,33 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from math import cos, degrees, pi, sin, sqrt, tan
+from math import cos, degrees, sin, sqrt, tan
 
 import numpy as np
 
-from data_gen.diagrams.problem import PER_METRE, Span, block, maybe_gravity, point, xy
+from data_gen.diagrams.incline import TriangleRanges, triangle
+from data_gen.diagrams.problem import PER_METRE, Span, block, maybe_gravity, point
 from data_gen.textbook.exercise import Exercise, Situation, Wrong, ask, number, pick, remark
-from sketch.geometry import centroid
 from sketch.ink import FloatArray
 from sketch.page import Component
 from sketch.shapes import Circle, Point
+
+TRIANGLE = TriangleRanges(base=(290.0, 390.0), ground=(340.0, 400.0), aside=50.0)
 
 
 @dataclass(frozen=True, slots=True)
 class SlopeRanges:
     """A right-angled triangle, fixed, with a body on its long side."""
 
-    angles: tuple[tuple[str, float], ...] = (
-        ("pi/5", pi / 5),
-        ("pi/6", pi / 6),
-        ("pi/7", pi / 7),
-        ("pi/8", pi / 8),
-        ("0.5", 0.5),
-        ("0.6", 0.6),
-    )
-    """As written, rad; above the 12 degrees below which a drawn edge is taken for level."""
-    base: Span = (290.0, 390.0)
-    height: float = 240.0
+    triangle: TriangleRanges = TRIANGLE
     radius: Span = (18.0, 32.0)
     box: tuple[Span, Span] = ((50.0, 75.0), (28.0, 40.0))
     """Width and height: too flat to tip."""
@@ -96,29 +88,23 @@ class Slope:
 def slope(rng: np.random.Generator, coefficients: tuple[str, ...] = (), low: float = 0.84) -> Slope:
     """An incline with a ball, or with a box where there is friction (a ball would roll). low: where the body
     stands, from the foot (0) to the top (1)."""
-    written, angle = RANGES.angles[rng.integers(len(RANGES.angles))]
-    base = min(rng.uniform(*RANGES.base), RANGES.height / tan(angle))
-    side = float(rng.choice([-1, 1]))  # which way it rises
-    foot = np.array([300 - side * base / 2 + rng.uniform(-50, 50), rng.uniform(340, 400)])
-    corner = foot + xy(side * base, 0)
-    top = corner - xy(0, base * tan(angle))
-    vertices = np.array([foot, corner, top])
-    up, out = xy(side * cos(angle), -sin(angle)), xy(-side * sin(angle), -cos(angle))
-    place = foot + low * (top - foot)
-    body, middle = _box(rng, place, up, out) if coefficients else _ball(rng, place, out)
+    drawn = triangle(rng, RANGES.triangle)
+    place = drawn.foot + low * (drawn.top - drawn.foot)
+    body, middle = _box(rng, place, drawn.up, drawn.out) if coefficients else _ball(rng, place, drawn.out)
     mass_text, mass = pick(rng, RANGES.masses)
     g, given = maybe_gravity(rng)
     given += (
-        remark(f"theta = {written}", "incline", point(0.75 * foot + 0.25 * centroid(vertices))),
+        remark(f"theta = {drawn.written}", "incline", drawn.at_foot),
         remark(f"m = {mass_text}", "body", middle),
     )
     mu = 0.0
     if coefficients:
         mu_text, mu = pick(rng, coefficients)
         given += (remark(f"mu = {mu_text}", "body", middle),)
-    length = RANGES.room * float(np.linalg.norm(top - foot)) / PER_METRE
-    parts = (block("incline", vertices, fixed=True), body)
-    return Slope(Situation(parts, given, 0.8), angle, written, side, length, mass, mu, g, middle)
+    length = RANGES.room * float(np.linalg.norm(drawn.top - drawn.foot)) / PER_METRE
+    parts = (block("incline", drawn.vertices, fixed=True), body)
+    situation = Situation(parts, given, 0.8)
+    return Slope(situation, drawn.angle, drawn.written, drawn.side, length, mass, mu, g, middle)
 
 
 def _ball(rng: np.random.Generator, place: FloatArray, out: FloatArray) -> tuple[Component, Point]:

@@ -6,6 +6,7 @@ import json
 import os
 import shlex
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -15,6 +16,8 @@ from inklined.options import rivals, there
 
 if TYPE_CHECKING:
     from evaluation.contest import Contest
+    from evaluation.lessons import Lesson
+    from evaluation.parallel import Progress
 
 SEED = 2026
 """Of the generated suites, unless another is asked for; training draws from other seeds."""
@@ -34,8 +37,20 @@ def compare(
         typer.Option(help="Labelled JSON Lines (.jsonl, .jsonl.gz) to compare on, one or more files."),
     ] = None,
     recognizer: Annotated[
-        list[str] | None, typer.Option(help="Who takes part, one or more names; everybody by default.")
+        list[str] | None,
+        typer.Option(
+            help="Who takes part, one or more names that `inklined recognizers` lists. [default: the contest's own]"
+        ),
     ] = None,
+    train: Annotated[
+        list[Path] | None,
+        typer.Option(
+            help="Labelled JSON Lines that the published rivals learn from; its writers are left out of --ink."
+        ),
+    ] = None,
+    templates: Annotated[
+        int, typer.Option(min=1, max=10_000, help="Rows of each kind learnt from, with --train.")
+    ] = 10,
     report: Annotated[
         Path | None,
         typer.Option(help="The report, one HTML file. [default: report.html; with --ink, none]"),
@@ -50,27 +65,35 @@ def compare(
 
     Without --ink the contest runs on generated ink: single strokes, and whole diagrams that are read,
     corrected and set in motion. It prints its tables and writes report.html with pictures of all of it.
+    Published rivals learn from generated ink unless --train gives them people's.
     """
     from inklined.output import check_writable, write_text
     from inklined.terminal import out, progress
+    from recognizer.published import PUBLISHED
     from recognizer.roster import ROSTER
 
     names = rivals(recognizer or ()) or tuple(ROSTER)
     if not ink and not strokes and not pages:
         raise typer.BadParameter("--strokes 0 --pages 0 leaves nothing to compare; give one of them a number")
     files = there(ink or ())
+    lessons = there(train or ())
+    if lessons and not any(name in PUBLISHED for name in names):
+        raise typer.BadParameter(
+            f"--train teaches the published rivals; --recognizer names none of {', '.join(PUBLISHED)}"
+        )
     place = report or (None if files else REPORT)
     for target in (place, json_file):
         if target:
-            check_writable(target, files)
+            check_writable(target, [*files, *lessons])
 
     with progress() as tell:
         from evaluation.contest import contest_on_files, contest_on_generated
         from evaluation.report import report as report_of
 
         workers = jobs or os.cpu_count() or 1
+        learnt, names = _taught(lessons, templates, seed, names, tell) if lessons else (None, names)
         contest = (
-            contest_on_files(files, names, workers, tell)
+            contest_on_files(files, names, workers, tell, learnt)
             if files
             else contest_on_generated(strokes, pages, seed, names, workers, tell)
         )
@@ -89,6 +112,31 @@ def compare(
         out.print(f"Figures: {json_file}", markup=False)
     if place:
         out.print(f"Report: {place}", markup=False)
+
+
+def _taught(
+    files: Sequence[Path], per_kind: int, seed: int, names: tuple[str, ...], tell: Progress
+) -> tuple[Lesson, tuple[str, ...]]:
+    """What is learnt from the files, and the names with every published rival as it is once taught from it."""
+    import numpy as np
+
+    from evaluation.lessons import lesson
+    from evaluation.rivals import taught_by_samples
+    from recognizer.published import PUBLISHED
+    from sketch.files import jsonl
+    from sketch.files.errors import FileError
+
+    rows = [row for file in files for row in jsonl.read(file).rows]
+    try:
+        learnt = lesson(rows, per_kind, np.random.default_rng(seed))
+    except ValueError as error:
+        raise FileError(", ".join(map(str, files)), str(error)) from None
+    taught: list[str] = []
+    for done, name in enumerate(names):
+        tell("Teaching rivals", done, len(names))
+        taught.append(taught_by_samples(name, learnt.samples, seed) if name in PUBLISHED else name)
+    tell("Teaching rivals", len(names), len(names))
+    return learnt, tuple(taught)
 
 
 def _print(contest: Contest) -> None:

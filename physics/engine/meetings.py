@@ -55,8 +55,8 @@ def first_meeting(
         one, other = strands[a], strands[b]
         if (one.run.time < end and one.run.stopped) or (other.run.time < end and other.run.stopped):
             continue
-        limit = end if best is None else best.time
-        when = _first_of(scene, one, other, begin, limit, bodies, tables)
+        # To the end, though another meeting may have been found: when two meet depends on them alone, to the bit.
+        when = _first_of(scene, one, other, begin, end, bodies, tables)
         if when is not None and (best is None or when < best.time):
             best = Meeting(when, one, other)
     return best

@@ -27,7 +27,17 @@ from math import atan2, cos, hypot, pi, sin
 from physics.formula.names import number_said
 from physics.parts.given import Spoken
 from physics.rectify.contacts import Touching
-from physics.rectify.correction import Correction, Step, hangs, reshaped, shift, taken_along, turn
+from physics.rectify.correction import (
+    Correction,
+    Step,
+    displacements,
+    hangs,
+    points_of,
+    reshaped,
+    shift,
+    taken_along,
+    turn,
+)
 from sketch.page import Component, Sketch
 from sketch.shapes import Circle, Point, Polygon, Shape, Solid, Spring, Wire
 
@@ -42,9 +52,19 @@ class AngleRule:
     """Share of the link's length by which its end may slide along a block; beyond, the block follows."""
     rounds: int = 100
     """Over all links: two that share a block and meet at 20 degrees need 90 turns for 1e-10."""
+    farthest: float = 1.0
+    """Share of the longest such link by which anything may be moved: what must go farther was not drawn to be that."""
 
 
 RULE = AngleRule()
+
+
+@dataclass(frozen=True, slots=True)
+class SaidAngle:
+    """A link's angle, radians, as the page says it, and which end it was tapped nearer to: 0 the start, 1 the end."""
+
+    angle: float
+    near: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,10 +77,12 @@ class LinkAngle:
     def direction(self, dx: float, dy: float) -> Point:
         """The unit direction that has this angle, nearest in sense to (dx, dy)."""
         level, rise = (sin(self.angle), cos(self.angle)) if self.steep else (cos(self.angle), sin(self.angle))
-        return (level if dx >= 0 else -level), (rise if dy >= 0 else -rise)
+        # One that is level or upright goes down to the right, whichever of its ends was drawn first.
+        right, down = (dx or dy) >= 0, (dy or dx) >= 0
+        return (level if right else -level), (rise if down else -rise)
 
 
-def angle_of(sketch: Sketch, spoken: Spoken, part: Component) -> LinkAngle | None:
+def said_of(sketch: Sketch, spoken: Spoken, part: Component) -> SaidAngle | None:
     """What the page says of a link's angle, None where it says nothing that can be."""
     said = spoken.of(part, "angle")
     if said is None or said.anchor is None or not isinstance(part.shape, Spring | Wire):
@@ -68,23 +90,78 @@ def angle_of(sketch: Sketch, spoken: Spoken, part: Component) -> LinkAngle | Non
     angle = number_said(sketch, spoken.meanings, said)
     if angle is None or not 0 <= angle <= pi / 2:
         return None
-    top, bottom = sorted((part.shape.start, part.shape.end), key=lambda end: end[1])
-    x, y = said.anchor
-    return LinkAngle(angle, hypot(x - top[0], y - top[1]) < hypot(x - bottom[0], y - bottom[1]))
+    away = [hypot(said.anchor[0] - x, said.anchor[1] - y) for x, y in points_of(part.shape)]
+    return SaidAngle(angle, 0 if away[0] < away[1] else 1)
+
+
+def _measured(said: SaidAngle, shape: Shape) -> LinkAngle:
+    """The angle of a link as it lies. Where neither end is the top one, it is measured so that the link may lie
+    as it does."""
+    ends = points_of(shape)
+    (x, y), (u, v) = ends[said.near], ends[1 - said.near]
+    level = abs(v - y) <= RULE.exact * hypot(u - x, v - y)
+    return LinkAngle(said.angle, steep=said.angle > pi / 4 if level else y < v)
+
+
+def drawn_at(sketch: Sketch, spoken: Spoken, part: Component) -> float | None:
+    """The angle at which a link lies, radians, measured as the one that is said of it; None where none is."""
+    said = said_of(sketch, spoken, part)
+    if said is None:
+        return None
+    (x1, y1), (x2, y2) = points_of(part.shape)
+    level, rise = abs(x2 - x1), abs(y2 - y1)
+    return atan2(level, rise) if _measured(said, part.shape).steep else atan2(rise, level)
+
+
+def angles_of(sketch: Sketch, spoken: Spoken) -> dict[str, SaidAngle]:
+    """What the page says of the angles of its links, by label. One within a single body cannot turn."""
+    found: dict[str, SaidAngle] = {}
+    for part in sketch.components:
+        if isinstance(part.shape, Spring | Wire) and (part.ends[0] is None or part.ends[0] != part.ends[1]):
+            said = said_of(sketch, spoken, part)
+            if said is not None:
+                found[part.label] = said
+    return found
 
 
 def aim(
-    sketch: Sketch, drawn: Sketch, spoken: Spoken, touching: Touching, skipped: Container[str] = ()
+    sketch: Sketch, said: Mapping[str, SaidAngle], touching: Touching, skipped: Container[str] = ()
 ) -> Step:
-    """C5 on every spring and wire that an angle is said of, but those skipped. drawn: the page on which the angles
-    were tapped."""
-    wanted: dict[str, LinkAngle] = {}
-    for part in drawn.components:
-        joins = part.ends[0] is None or part.ends[0] != part.ends[1]  # one within a single body cannot turn
-        if part.label not in skipped and joins and isinstance(part.shape, Spring | Wire):
-            said = angle_of(drawn, spoken, part)
-            if said is not None:
-                wanted[part.label] = said
+    """C5 on every spring and wire that an angle is said of, but those skipped.
+
+    Where not all can have their angles, the one that is farthest from its own is given up, and then the next.
+    """
+    wanted = {
+        label: _measured(one, sketch.component(label).shape)
+        for label, one in said.items()
+        if label not in skipped
+    }
+    while wanted:
+        turned = _turned(sketch, wanted, touching)
+        if turned is not None:
+            return Step(turned[0], _corrections(sketch, *turned))
+        del wanted[max(wanted, key=lambda label: (abs(_off(sketch, label, wanted[label])), label))]
+    return Step(sketch)
+
+
+def no_worse(
+    before: Sketch, clipped: Sketch, label: str, said: SaidAngle, held: Container[str]
+) -> dict[str, Shape]:
+    """What else must change so that a link's angle is no farther from what is said of it after clipping than it was
+    before: it then keeps the angle that it was drawn with."""
+    start, end = points_of(before.component(label).shape)
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    wanted = _measured(said, before.component(label).shape)
+    if abs(_off(clipped, label, wanted)) <= abs(_between(wanted, dx, dy)) + RULE.exact:
+        return {}
+    return _aimed(clipped, label, LinkAngle(atan2(abs(dx), abs(dy)), steep=True), held)
+
+
+def _turned(
+    sketch: Sketch, wanted: Mapping[str, LinkAngle], touching: Touching
+) -> tuple[Sketch, dict[str, str]] | None:
+    """(the page with these angles, for each component that was changed the link on whose account); None where they
+    cannot be had."""
     after = sketch
     causes: dict[str, str] = {}
     for _ in range(RULE.rounds):
@@ -92,13 +169,24 @@ def aim(
         for label, said in sorted(wanted.items()):
             if abs(_off(after, label, said)) <= RULE.exact:
                 continue
-            held = frozenset(touching())
-            shapes = _aimed(after, label, said, held)
+            shapes = _aimed(after, label, said, frozenset(touching()))
             after = reshaped(after, shapes)
             causes |= dict.fromkeys(shapes, label) | {label: label}
         if after is before:
             break
-    return Step(after, _corrections(sketch, after, causes))
+    else:
+        return None
+    if causes:
+        longest = max(_length(sketch, label) for label in wanted)
+        moves = displacements(sketch, after).values()
+        if max((max(ways) for ways in moves), default=0.0) > RULE.farthest * longest:
+            return None
+    return after, causes
+
+
+def _length(sketch: Sketch, label: str) -> float:
+    start, end = points_of(sketch.component(label).shape)
+    return hypot(end[0] - start[0], end[1] - start[1])
 
 
 def _corrections(before: Sketch, after: Sketch, causes: Mapping[str, str]) -> tuple[Correction, ...]:
@@ -118,7 +206,11 @@ def _off(sketch: Sketch, label: str, said: LinkAngle) -> float:
     """By how much a link must be turned, radians."""
     shape = sketch.component(label).shape
     assert isinstance(shape, Spring | Wire)
-    dx, dy = shape.end[0] - shape.start[0], shape.end[1] - shape.start[1]
+    return _between(said, shape.end[0] - shape.start[0], shape.end[1] - shape.start[1])
+
+
+def _between(said: LinkAngle, dx: float, dy: float) -> float:
+    """By how much a direction must be turned to have this angle, radians."""
     ux, uy = said.direction(dx, dy)
     return atan2(dx * uy - dy * ux, dx * ux + dy * uy)
 

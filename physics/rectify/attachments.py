@@ -7,11 +7,13 @@ boundary already is where it is meant to be. Page units.
 
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Container, Mapping
 from dataclasses import dataclass, replace
 from math import hypot, radians, sin
 
-from physics.rectify.correction import Correction, Step, correction, reshaped
+from physics.rectify.angles import SaidAngle, no_worse
+from physics.rectify.contacts import Touching
+from physics.rectify.correction import Correction, Step, correction, reshaped, shapes_of
 from physics.rectify.separation import nearest, outline_of
 from sketch.page import Sketch
 from sketch.shapes import Circle, Point, Polygon, Shape, Solid, Spring, Wire
@@ -34,22 +36,33 @@ class AttachmentRule:
 RULE = AttachmentRule()
 
 
-def attach(sketch: Sketch, skipped: Container[str] = ()) -> Step:
-    """C4 on every spring and wire of the page but those skipped."""
-    shapes: dict[str, Shape] = {}
+def attach(
+    sketch: Sketch, angles: Mapping[str, SaidAngle], touching: Touching, skipped: Container[str] = ()
+) -> Step:
+    """C4 on every spring and wire of the page but those skipped. angles: that are said of links, by label, which
+    clipping makes no worse."""
+    after = sketch
     corrections: list[Correction] = []
     why = "its ends are put on the boundary of what they are attached to"
-    for part in sketch.components:
-        if isinstance(part.shape, Spring | Wire) and part.label not in skipped:
-            start, end = part.shape.start, part.shape.end
-            holders = [_holder(sketch, label) for label in part.ends]
-            new_start = start if holders[0] is None else _clipped(holders[0], start, end)
-            new_end = end if holders[1] is None else _clipped(holders[1], end, start)
-            if (new_start, new_end) != (start, end) and new_start != new_end:
-                shape = shapes[part.label] = replace(part.shape, start=new_start, end=new_end)
-                before: dict[str, Shape] = {part.label: part.shape}
-                corrections += correction("C4", part.label, before, {part.label: shape}, why, why)
-    return Step(reshaped(sketch, shapes), tuple(corrections))
+    # What follows a link that keeps its angle takes the ends of others along, which are then clipped there.
+    for part in sorted(sketch.components, key=lambda part: (part.label not in angles, part.label)):
+        if part.label in skipped or not isinstance(part.shape, Spring | Wire):
+            continue
+        shape = after.component(part.label).shape
+        assert isinstance(shape, Spring | Wire)
+        holders = [_holder(after, label) for label in part.ends]
+        start = shape.start if holders[0] is None else _clipped(holders[0], shape.start, shape.end)
+        end = shape.end if holders[1] is None else _clipped(holders[1], shape.end, shape.start)
+        if (start, end) == (shape.start, shape.end) or start == end:
+            continue
+        shapes: dict[str, Shape] = {part.label: replace(shape, start=start, end=end)}
+        if part.label in angles:
+            clipped = reshaped(after, shapes)
+            shapes |= no_worse(after, clipped, part.label, angles[part.label], frozenset(touching()))
+        follows = f"it follows {part.label}, which keeps its angle"
+        corrections += correction("C4", part.label, shapes_of(after), shapes, why, follows)
+        after = reshaped(after, shapes)
+    return Step(after, tuple(corrections))
 
 
 def _holder(sketch: Sketch, label: str | None) -> Solid | None:

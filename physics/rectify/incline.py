@@ -23,6 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import combinations
 from math import atan2, cos, hypot, pi, radians, sin
 
@@ -63,6 +64,8 @@ class InclineRule:
     """Of these a triangle is looked for: a polygon of more corners is none with one blunted."""
     facing: float = radians(20)
     """Radians between the long side's normal and the direction to what rests on it."""
+    digits: int = 9
+    """To which angles (radians) and shares are alike: then places decide, which do not depend on the drawing's order."""
     top: float = 12.0
     """Page units from the top to the boundary of a fixed ball that goes with it."""
 
@@ -80,23 +83,23 @@ class Incline:
 
 
 def incline_of(shape: Polygon) -> Incline | None:
-    """Which vertex is which, where the triangle has a right angle on a base; None otherwise."""
+    """Which vertex is which, where the triangle has a right angle on a base no steeper than 45°; None otherwise."""
     if len(shape.vertices) != 3:
         return None
-    corners: list[tuple[float, int]] = []
+    corners: list[tuple[float, Point, int]] = []
     for k in range(3):
         one, other = (
             shape.vertices[k - 1] - shape.vertices[k],
             shape.vertices[(k + 1) % 3] - shape.vertices[k],
         )
         angle = abs(atan2(one[0] * other[1] - one[1] * other[0], one @ other))
-        corners.append((abs(angle - pi / 2), k))
-    off, corner = min(corners)
+        corners.append((round(abs(angle - pi / 2), RULE.digits), _point(shape.vertices[k]), k))
+    off, _, corner = min(corners)
     if off > RULE.right:
         return None
-    others = [(corner + 1) % 3, (corner + 2) % 3]
-    foot, top = sorted(others, key=lambda k: _steepness(shape.vertices[k] - shape.vertices[corner]))
-    return Incline(foot, corner, top)
+    steep = {k: _steepness(shape.vertices[k] - shape.vertices[corner]) for k in range(3) if k != corner}
+    foot, top = sorted(steep, key=lambda k: (round(steep[k], RULE.digits), _point(shape.vertices[k])))
+    return Incline(foot, corner, top) if steep[foot] <= sin(pi / 4) + RULE.exact else None
 
 
 def triangle_in(shape: Polygon) -> Polygon:
@@ -104,11 +107,14 @@ def triangle_in(shape: Polygon) -> Polygon:
     all of it; otherwise the polygon itself."""
     if len(shape.vertices) == 3:
         return shape
-    triples = combinations(range(min(len(shape.vertices), RULE.corners)), 3)
-    areas = [(abs(signed_area(shape.vertices[list(triple)])), triple) for triple in triples]
-    area, best = max(areas)
     whole = abs(signed_area(shape.vertices))
-    return Polygon(shape.vertices[list(best)]) if area >= RULE.whole * whole else shape
+    found: list[tuple[float, list[list[float]], list[int]]] = []
+    for triple in combinations(range(min(len(shape.vertices), RULE.corners)), 3):
+        corners = shape.vertices[list(triple)]
+        share = abs(signed_area(corners)) / whole if whole > 0 else 0.0
+        found.append((round(share, RULE.digits), sorted(corners.tolist()), list(triple)))
+    share, _, best = max(found)
+    return Polygon(shape.vertices[best]) if share >= RULE.whole else shape
 
 
 def raised(foot: Point, corner: Point, top: Point, angle: float) -> Point:
@@ -124,20 +130,60 @@ def raised(foot: Point, corner: Point, top: Point, angle: float) -> Point:
     return foot[0] + distance * vx, foot[1] + distance * vy
 
 
-def tilt(sketch: Sketch, spoken: Spoken, touching: Touching, skipped: Container[str] = ()) -> Step:
-    """C3 on every right-angled triangle that an angle is said of, but those skipped."""
+def angles_of(sketch: Sketch, spoken: Spoken) -> dict[str, float]:
+    """The angles that the page says its polygons have as inclines, radians, by label."""
+    found: dict[str, float] = {}
+    for part in sketch.components:
+        if isinstance(part.shape, Polygon):
+            said = spoken.of(part, "angle")
+            angle = None if said is None else number_said(sketch, spoken.meanings, said)
+            if angle is not None and RULE.flattest <= angle <= pi / 2 - RULE.flattest:
+                found[part.label] = angle
+    return found
+
+
+def no_worse(drawn: Polygon, after: Polygon, angle: float) -> Polygon:
+    """A triangle that was straightened, with the angle at its foot as near to what is said of it as it was drawn;
+    what is no incline as it is."""
+    was, now = incline_of(drawn), incline_of(after)
+    if was is None or now is None:
+        return after
+    before = at_foot(drawn, was)
+    if abs(at_foot(after, now) - angle) <= abs(before - angle):
+        return after
+    vertices = after.vertices.copy()
+    foot, corner, top = (_point(vertices[k]) for k in (now.foot, now.corner, now.top))
+    vertices[now.top] = raised(foot, corner, top, before)
+    return Polygon(vertices)
+
+
+@lru_cache(maxsize=256)  # an edited formula changes no shape
+def inclined(shape: Polygon) -> float | None:
+    """The angle at the foot of the triangle that a polygon is, radians; None for what is no incline."""
+    triangle = triangle_in(shape)
+    found = incline_of(triangle)
+    return None if found is None else at_foot(triangle, found)
+
+
+def at_foot(shape: Polygon, found: Incline) -> float:
+    """The angle between base and long side, radians."""
+    foot, corner, top = (shape.vertices[k] for k in (found.foot, found.corner, found.top))
+    one, other = corner - foot, top - foot
+    return abs(atan2(float(one[0] * other[1] - one[1] * other[0]), float(one @ other)))
+
+
+def tilt(
+    sketch: Sketch, angles: Mapping[str, float], touching: Touching, skipped: Container[str] = ()
+) -> Step:
+    """C3 on every right-angled triangle that an angle is said of (radians, by label), but those skipped."""
     after = sketch
     corrections: list[Correction] = []
-    for part in sketch.components:
-        if part.label in skipped or not isinstance(part.shape, Polygon):
-            continue
-        said = spoken.of(part, "angle")
-        angle = None if said is None else number_said(sketch, spoken.meanings, said)
-        if angle is not None and RULE.flattest <= angle <= pi / 2 - RULE.flattest:
-            why = "its incline is given the angle that the page says it has"
-            follows = f"it keeps its place on {part.label}, whose incline is given its angle"
-            shapes = _tilted(after, part.label, angle, touching)
-            corrections += correction("C3", part.label, shapes_of(after), shapes, why, follows)
+    why = "its incline is given the angle that the page says it has"
+    for label, angle in angles.items():
+        if label not in skipped:
+            follows = f"it keeps its place on {label}, whose incline is given its angle"
+            shapes = _tilted(after, label, angle, touching)
+            corrections += correction("C3", label, shapes_of(after), shapes, why, follows)
             after = reshaped(after, shapes)
     return Step(after, tuple(corrections))
 
@@ -200,13 +246,15 @@ def _riders(
 
 
 def _affine(foot: Point, corner: Point, top: Point, new: Point) -> Place:
-    """The map of the plane that keeps foot and corner and brings the top to its new place."""
+    """The map of the plane that keeps foot and corner and brings the top to its new place. What lies below the base
+    stays, and what lies higher than the top goes as far as the top: an end may have been drawn beside the triangle."""
     bx, by = corner[0] - foot[0], corner[1] - foot[1]
     tx, ty = top[0] - foot[0], top[1] - foot[1]
     twice = bx * ty - by * tx
 
     def placed(point: Point) -> Point:
         share = (bx * (point[1] - foot[1]) - by * (point[0] - foot[0])) / twice
+        share = min(1.0, max(0.0, share))
         return point[0] + share * (new[0] - top[0]), point[1] + share * (new[1] - top[1])
 
     return placed

@@ -18,19 +18,36 @@ is wrong there on purpose. What only followed is undone along with what it follo
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 
 from physics.formula.meaning import read
-from physics.parts.given import spoken
-from physics.rectify.angles import aim
+from physics.parts.given import Spoken, spoken
+from physics.rectify.angles import SaidAngle, aim
+from physics.rectify.angles import angles_of as links_said
 from physics.rectify.attachments import attach
 from physics.rectify.contacts import Pair, outlines_of, pairs_of, resting, touch
-from physics.rectify.correction import RULES, Correction, Key, Rectified, Rule, with_anchors
+from physics.rectify.correction import (
+    RULES,
+    Correction,
+    Key,
+    Rectified,
+    Rule,
+    Step,
+    displacements,
+    with_anchors,
+)
 from physics.rectify.flush import lay
+from physics.rectify.incline import angles_of as inclines_said
 from physics.rectify.incline import tilt
 from physics.rectify.straighten import straighten
 from sketch.page import Sketch
+
+ROUNDS = 12
+"""Of all rules: nearly every page has settled after one, and the next shows it. What a link's angle brings near to
+something else may touch it then."""
+SETTLED = 1e-9
+"""Page units by which a round may still move something: rounding."""
 
 
 def rectify(sketch: Sketch, without: Iterable[Key] = ()) -> Rectified:
@@ -44,16 +61,67 @@ def rectify(sketch: Sketch, without: Iterable[Key] = ()) -> Rectified:
         if rule not in RULES:
             raise ValueError(f"({rule!r}, {label!r}) is no correction's key; rules are {', '.join(RULES)}")
 
-    def skipped(rule: Rule) -> frozenset[str]:
-        return frozenset(label for name, label in left_out if name == rule)
-
     meanings = read(sketch)
     said = spoken(meanings)
+
+    inclines, links = inclines_said(sketch, said), links_said(sketch, said)
+
+    def once(page: Sketch, leaving: frozenset[Key]) -> tuple[Step, ...]:
+        return _steps(page, said, inclines, links, leaving)
+
+    after, corrections = sketch, tuple[Correction, ...]()
+    for _ in range(ROUNDS):
+        after, more, whole = _settled(after, left_out, once)
+        corrections += more
+        if whole or not more:
+            break
+        # Some were given up; from here on they may be had.
+    return Rectified(with_anchors(sketch, after), corrections, sketch, left_out, meanings)
+
+
+Once = Callable[[Sketch, frozenset[Key]], tuple[Step, ...]]
+"""All rules in their order, without corrections of these keys."""
+
+
+def _settled(
+    sketch: Sketch, without: frozenset[Key], once: Once
+) -> tuple[Sketch, tuple[Correction, ...], bool]:
+    """(the page on which the rules change nothing more, what was corrected, whether nothing had to be given up).
+
+    Where corrections undo one another round after round, the contacts among them are given up, since contacts are
+    guessed and angles are said."""
+    left_out = without
+    while True:
+        after, corrections = sketch, list[Correction]()
+        made: tuple[Correction, ...] = ()
+        for _ in range(ROUNDS):
+            steps = once(after, left_out)
+            moves = displacements(after, steps[-1].sketch).values()
+            if max((max(ways) for ways in moves), default=0.0) <= SETTLED:
+                return after, tuple(corrections), left_out == without
+            after = steps[-1].sketch
+            made = tuple(one for step in steps for one in step.corrections)
+            corrections += made
+        fighting = {one.key for one in made}
+        left_out |= {key for key in fighting if key[0] == "C2"} or fighting
+
+
+def _steps(
+    sketch: Sketch,
+    said: Spoken,
+    inclines: Mapping[str, float],
+    links: Mapping[str, SaidAngle],
+    without: frozenset[Key],
+) -> tuple[Step, ...]:
+    """All rules in their order, each on the page that the one before it left."""
+
+    def skipped(rule: Rule) -> frozenset[str]:
+        return frozenset(label for name, label in without if name == rule)
 
     def mass(label: str) -> float:
         return said.mass(sketch, sketch.component(label))[0]
 
-    straight = straighten(sketch, skipped("C1"))
+    straight = straighten(sketch, inclines, skipped("C1"))
 
     @cache
     def pairs() -> list[Pair]:
@@ -63,14 +131,12 @@ def rectify(sketch: Sketch, without: Iterable[Key] = ()) -> Rectified:
     def touching() -> Mapping[str, frozenset[str]]:
         return resting(pairs())
 
-    tilted = tilt(straight.sketch, said, touching, skipped("C3"))
+    tilted = tilt(straight.sketch, inclines, touching, skipped("C3"))
     laid = lay(tilted.sketch, touching, skipped("C2"))
     moved = touch(laid.sketch, pairs(), mass, skipped("C2"))
-    attached = attach(moved.sketch, skipped("C4"))
-    aimed = aim(attached.sketch, sketch, said, touching, skipped("C5"))
-    steps = (straight, tilted, laid, moved, attached, aimed)
-    corrections: tuple[Correction, ...] = tuple(one for step in steps for one in step.corrections)
-    return Rectified(with_anchors(sketch, aimed.sketch), corrections, sketch, left_out, meanings)
+    attached = attach(moved.sketch, links, touching, skipped("C4"))
+    aimed = aim(attached.sketch, links, touching, skipped("C5"))
+    return straight, tilted, laid, moved, attached, aimed
 
 
 def undo(rectified: Rectified, index: int) -> Rectified:

@@ -21,7 +21,7 @@ a scene's blocks always run anti-clockwise (`physics.parts.solids.hull`).
 
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Container, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from math import atan2, cos, hypot, pi, radians, sin
@@ -30,6 +30,7 @@ import numpy as np
 
 from physics.rectify.correction import Correction, Step, correction, reshaped
 from physics.rectify.flush import lies_aslant
+from physics.rectify.incline import no_worse
 from physics.rectify.separation import Outline, outline_of
 from sketch.ink import FloatArray
 from sketch.page import Sketch
@@ -76,8 +77,9 @@ class StraightRule:
 RULE = StraightRule()
 
 
-def straighten(sketch: Sketch, skipped: Container[str] = ()) -> Step:
-    """C1 on every polygon of the page but those skipped."""
+def straighten(sketch: Sketch, angles: Mapping[str, float], skipped: Container[str] = ()) -> Step:
+    """C1 on every polygon of the page but those skipped. angles: that are said of inclines, radians, by label, which
+    straightening makes no worse."""
     shapes: dict[str, Shape] = {}
     corrections: list[Correction] = []
     outlines: dict[str, Outline] = {}
@@ -103,7 +105,10 @@ def straighten(sketch: Sketch, skipped: Container[str] = ()) -> Step:
                 if other.low[1] < bottom + 1 and other.high[1] > top - 1
             ]
             if not any(other is not own and lies_aslant(other, own) for other in near):
-                shape = shapes[part.label] = Polygon(_wound(vertices))
+                shape = Polygon(_wound(vertices))
+                if part.label in angles:
+                    shape = no_worse(part.shape, shape, angles[part.label])
+                shapes[part.label] = shape
                 before: dict[str, Shape] = {part.label: part.shape}
                 corrections += correction("C1", part.label, before, {part.label: shape}, why, why)
     return Step(reshaped(sketch, shapes), tuple(corrections))
@@ -112,6 +117,8 @@ def straighten(sketch: Sketch, skipped: Container[str] = ()) -> Step:
 def _straight(drawn: list[Point]) -> list[Point]:
     """The polygon's vertices with all that is meant made so, until nothing more is found; the same list where
     nothing is to be done, or where it has no end within reason."""
+    if all(x == 0 or y == 0 for x, y in _sides(drawn)):
+        return drawn  # nothing leans
     result = drawn
     for _ in range(RULE.rounds):
         after = _once(result)

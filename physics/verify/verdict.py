@@ -150,8 +150,11 @@ def _off(given: float, true: float) -> str:
     """How far off an answer is, in words; nothing where that is no matter of a share."""
     if true == 0.0 or given / true <= 0.0 or given / true > 10.0:
         return ""
-    share = abs(given) / abs(true) - 1.0
-    return f", so this is {100 * abs(share):.2g} % too {'great' if share > 0 else 'small'}"
+    times = given / true
+    if times >= 2.0:
+        return f", so this is {times:.2g} times as much"
+    share = 100 * abs(times - 1.0)
+    return f", so this is {share:.{2 if share < 10 else 3}g} % too {'great' if times > 1.0 else 'small'}"
 
 
 def _verdict(

@@ -10,7 +10,8 @@ from math import radians
 
 import numpy as np
 
-from recognizer.geometric.cusps import bends
+from recognizer.geometric.cusps import CUSPS
+from recognizer.geometric.kernels import head_of
 from sketch.ink import FloatArray
 
 
@@ -49,34 +50,5 @@ class Head:
 
 def head(path: FloatArray, rule: ArrowRule = ARROW) -> Head | None:
     """The head of an arrow drawn tail first; None where the path has no room for one."""
-    count = len(path)
-    aim = path[round(rule.shaft * (count - 1))] - path[0]
-    length = float(np.hypot(*aim))
-    if length == 0:
-        return None
-    along = (path - path[0]) @ (aim / length)
-    farthest = float(along.max())
-    sharpness = np.abs(bends(path))
-    turned = np.flatnonzero((along >= farthest * (1 - rule.tip)) & (sharpness > rule.turn))
-    if len(turned) == 0:
-        return None
-    tip = int(turned[0])
-    tip += int(np.argmax(sharpness[tip : tip + 4]))
-    shaft = path[tip] - path[0]
-    length = float(np.hypot(*shaft))
-    if tip < rule.shaft * (count - 1) or tip > count - 4 or length == 0:
-        return None
-    forward = shaft / length
-    left = np.array([-forward[1], forward[0]])
-    rest = (path[tip:] - path[tip]) / length
-    across = rest @ left
-    low, high = float(-across.min()), float(across.max())
-    return Head(
-        tip=tip,
-        bow=float(np.sqrt((((path[: tip + 1] - path[0]) @ left / length) ** 2).mean())),
-        fallback=float(-(rest @ forward).min()),
-        narrower=min(low, high),
-        wider=max(low, high),
-        ink=float(np.hypot(*np.diff(rest, axis=0).T).sum()),
-        sharpest=float(sharpness[tip]),
-    )
+    tip, *measures = head_of(np.ascontiguousarray(path), CUSPS.reach, rule.shaft, rule.tip, rule.turn)
+    return None if tip < 0 else Head(tip, *measures)

@@ -14,6 +14,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from recognizer.geometric.corners import corners
 from recognizer.geometric.ring import ring
 from recognizer.geometric.teeth import teeth
 from recognizer.preprocess import spaced, unit_path
@@ -42,8 +43,8 @@ class GestureRule:
     """Points of a lone tap, at most, where times are not known: small ink in other units has more."""
     swings: int = 5
     """Legs of a scribble: a pen that erases goes there and back at least twice."""
-    dense: float = 1.0
-    """A scribble's pitch over its height, at most: it covers, where a wave passes over."""
+    dense: float = 0.5
+    """A scribble's pitch over its height, at most: it covers, where a wave or a spring passes over."""
     hits: int = 3
     """Crossings with one earlier stroke before a scribble means that stroke: a spring crosses the
     shape it ends at once or twice."""
@@ -57,7 +58,11 @@ class GestureRule:
     enclosed: float = 0.9
     """Share of another stroke's points within a lasso before that stroke is meant."""
     worth: float = 0.1
-    """Size of an enclosed stroke over the lasso's: smaller ones are dots and blemishes."""
+    """Size of an enclosed stroke over the lasso's: smaller ones are dots and blemishes,"""
+    several: int = 3
+    """unless so many strokes are enclosed: a line of writing, which nobody draws a block about afterwards."""
+    corners: int = 2
+    """Corners of an outline, besides its ends, from which what looks like a polygon is one."""
 
 
 GESTURES = GestureRule()
@@ -65,7 +70,7 @@ GESTURES = GestureRule()
 
 def gestures(ink: Ink, polygons: Sequence[bool], rule: GestureRule = GESTURES) -> list[GestureKind | None]:
     """For each stroke the gesture that its surroundings make it, or None. `polygons`: which strokes are
-    clearly polygons in themselves, and so no lassos: a block may be drawn about another."""
+    clearly polygons in themselves: with corners too they are no lassos, for a block may be drawn about another."""
     found: list[GestureKind | None] = [None] * len(ink)
     if len(ink) == 0:
         return found
@@ -85,9 +90,13 @@ def gestures(ink: Ink, polygons: Sequence[bool], rule: GestureRule = GESTURES) -
             continue
         if is_scribble(stroke, [ink[other] for other in earlier], rule):
             found[index] = "scribble"
-        elif not polygons[index]:
+        else:
+            small = [ink[other] for other in earlier if sizes[other] <= rule.worth * sizes[index]]
             worthy = [ink[other] for other in earlier if sizes[other] > rule.worth * sizes[index]]
-            if is_lasso(stroke, worthy, rule):
+            held = enclosed(stroke, [*worthy, *small], rule)
+            if sum(held) >= rule.several or (
+                any(held[: len(worthy)]) and not _angular(stroke, polygons[index])
+            ):
                 found[index] = "lasso"
     return found
 
@@ -119,20 +128,22 @@ def is_scribble(stroke: Stroke, earlier: list[Stroke], rule: GestureRule = GESTU
     return bool((crossed >= rule.hits).any())
 
 
-def is_lasso(stroke: Stroke, earlier: list[Stroke], rule: GestureRule = GESTURES) -> bool:
-    """Whether the stroke closes round one of the earlier strokes."""
-    if not earlier:
-        return False
+def _angular(stroke: Stroke, polygon: bool, rule: GestureRule = GESTURES) -> bool:
+    """Whether what looks like a polygon has corners too."""
+    return polygon and len(corners(stroke.points)) >= rule.corners
+
+
+def enclosed(stroke: Stroke, earlier: list[Stroke], rule: GestureRule = GESTURES) -> list[bool]:
+    """Which of the earlier strokes the stroke closes round."""
+    nothing = [False] * len(earlier)
+    if not earlier or len(stroke) < 3:
+        return nothing
     outline = ring(resample(unit_path(stroke), 48))
     if outline is None or outline.gap > rule.gap or outline.loose > rule.loose:
-        return False
-    inside = shapely.Polygon(stroke.points) if len(stroke) > 2 else None
-    if inside is None:
-        return False
+        return nothing
+    inside = shapely.Polygon(stroke.points)
     shapely.prepare(inside)
-    return any(
-        float(shapely.contains_xy(inside, *other.points.T).mean()) >= rule.enclosed for other in earlier
-    )
+    return [float(shapely.contains_xy(inside, *other.points.T).mean()) >= rule.enclosed for other in earlier]
 
 
 def _seconds(stroke: Stroke) -> float | None:

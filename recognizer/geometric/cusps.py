@@ -12,6 +12,7 @@ from math import radians
 
 import numpy as np
 
+from recognizer.geometric.kernels import bend_angles
 from sketch.ink import FloatArray
 
 
@@ -33,15 +34,7 @@ CUSPS = CuspRule()
 def bends(points: FloatArray, reach: int = CUSPS.reach) -> FloatArray:
     """Signed angle between the chords that lead `reach` points to and from each point, radians in
     (−π, π]: (n,); 0 within `reach` of the ends."""
-    found = np.zeros(len(points))
-    if len(points) <= 2 * reach:
-        return found
-    chords = points[reach:] - points[:-reach]
-    before, after = chords[:-reach], chords[reach:]
-    cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
-    dot = before[:, 0] * after[:, 0] + before[:, 1] * after[:, 1]
-    found[reach:-reach] = np.arctan2(cross, dot)
-    return found
+    return bend_angles(np.ascontiguousarray(points), reach)
 
 
 def cusps(points: FloatArray, rule: CuspRule = CUSPS) -> list[int]:

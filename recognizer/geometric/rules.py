@@ -10,34 +10,20 @@ versions misread. Frame: lengths are fractions of the stroke's size (its boundin
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import exp, log, log1p, radians
+from math import exp, hypot, log, log1p, radians
 
 import numpy as np
 
 from recognizer.geometric.arrows import head
+from recognizer.geometric.bounds import Bound
+from recognizer.geometric.heads import head_evidence
+from recognizer.geometric.kernels import extent_of, length_of, line_rms, resampled, turning_shares
 from recognizer.geometric.legs import best_legs
 from recognizer.geometric.ring import Ring, ring
 from recognizer.geometric.teeth import Teeth, teeth
-from recognizer.preprocess import spaced
-from sketch.geometry import path_length, resample, turning
+from recognizer.preprocess import points_for
 from sketch.ink import FloatArray
 from sketch.page import STROKE_KINDS, StrokeKind
-
-
-@dataclass(frozen=True, slots=True)
-class Bound:
-    """A soft bound: half belief `at`, 73 % one `width` to the good side, 27 % one to the bad."""
-
-    at: float
-    width: float
-
-    def below(self, value: float) -> float:
-        """Logarithm of the belief that the value is small enough."""
-        return _log_logistic((self.at - value) / self.width)
-
-    def above(self, value: float) -> float:
-        """Logarithm of the belief that the value is large enough."""
-        return _log_logistic((value - self.at) / self.width)
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,15 +41,15 @@ class Rules:
     rounder: Bound = Bound(0.2, 0.25)
     """Logarithm of (distance from the ellipse / distance from the polygon). A circle drawn with 3 %
     of wobble has −0.8, a square drawn with 2 % +1.4."""
-    round: Bound = Bound(0.13, 0.02)
+    round: Bound = Bound(0.115, 0.015)
     """Spread of a circle's radii. A careful square has 0.11 with no wobble at all, but that is for
     `rounder` to see; beyond it is neither."""
-    lobed: Bound = Bound(0.1, 0.015)
+    lobed: Bound = Bound(0.085, 0.012)
     """The same for a lasso: thrown about things, it follows nothing."""
     thin: Bound = Bound(0.25, 0.04)
     """Smaller over larger axis of a circle. An ellipse of 3:1 was meant as a circle seen at an
     angle, one of 5:1 is a slip of a line."""
-    sliver: Bound = Bound(0.06, 0.015)
+    sliver: Bound = Bound(0.035, 0.008)
     """The same for a polygon: a plank of 10:1 is one, a line drawn there and back is not."""
     side_costs: tuple[float, ...] = (1.0, 1.15, 1.4, 1.8)
     """Factor on the distance from the best triangle, quadrilateral, pentagon, hexagon: more sides
@@ -76,13 +62,15 @@ class Rules:
     splinter: float = 1.35
     hand: float = 0.005
     """Distance, rms, that a careful hand wavers by: no side is earned by following it."""
-    polygonal: Bound = Bound(0.025, 0.005)
-    """Distance from the best polygon, rms. Bowed sides and rounded corners have 0.01; a circle has
-    0.031 from its best square."""
-    cornered: Bound = Bound(0.85, 0.03)
-    """Share of an outline's turning that lies at its polygon's corners. A polygon turns there and nowhere
-    else; a circle turns everywhere, 0.63 of it within reach of the corners of its best hexagon, and one
-    begun with a straight stroke 0.8."""
+    polygonal: Bound = Bound(0.014, 0.0015)
+    """Distance from the best polygon, rms. Bowed sides and rounded corners have 0.01; a circle has 0.017 from
+    its best hexagon, 0.031 from its best square."""
+    curved: Bound = Bound(0.012, 0.0015)
+    """The same of a lasso: a loop that no polygon follows."""
+    cornered: Bound = Bound(0.74, 0.05)
+    """Share of an outline's turning that lies at its polygon's corners, 0 where it turns evenly all the way
+    round and 1 where it turns there only. A polygon with rounded corners has 0.9 and more, a circle 0.3 at
+    the corners of its best hexagon, and one begun with a straight stroke 0.6."""
     corner_reach: int = 2
     """Points of the outline on either side of a corner that are its rounding: a tenth of a side of a
     square."""
@@ -131,6 +119,8 @@ class Rules:
     """The turn into the head: barbs come back at more than a right angle."""
     head_ink: Bound = Bound(2.6, 0.25)
     """Length of the head's path in shafts: four strokes of half a shaft, at most."""
+    by_itself: float = log(0.55)
+    """Added to the belief in a head that is judged by itself: its shaft may bend, and letters have bent ones."""
     otherwise: float = log(0.2)
     """Mathematics is what answers to nothing else: it wins where every other kind is less believed
     than this. One soft bound half missed (0.5) and another at 73 % still make a shape."""
@@ -146,9 +136,9 @@ def evidence(path: FloatArray, rules: Rules = RULES) -> FloatArray:
 
     A tap depends on what else is on the page: it gets `rules.never` here.
     """
-    points = resample(path, rules.points)
+    points = resampled(path, rules.points)
     outline = ring(points)
-    found = teeth(spaced(path))
+    found = teeth(evenly(path))
     beliefs: dict[StrokeKind, float] = {
         "spring": spring_evidence(points, found, rules),
         "wire": wire_evidence(points, found, rules),
@@ -161,6 +151,11 @@ def evidence(path: FloatArray, rules: Rules = RULES) -> FloatArray:
     if outline is not None:
         beliefs |= outline_evidence(outline, rules)
     return np.array([max(beliefs.get(kind, rules.never), rules.never) for kind in STROKE_KINDS])
+
+
+def evenly(path: FloatArray) -> FloatArray:
+    """`recognizer.preprocess.spaced`, in a compiled loop."""
+    return resampled(path, points_for(length_of(path)))
 
 
 def outline_evidence(outline: Ring, rules: Rules = RULES) -> dict[StrokeKind, float]:
@@ -180,14 +175,16 @@ def outline_evidence(outline: Ring, rules: Rules = RULES) -> dict[StrokeKind, fl
     circle = (
         rules.rounder.below(ratio) + rules.round.below(outline.roundness) + rules.thin.above(outline.aspect)
     )
+    wrong, at_corners = turning_shares(outline.points, np.array(corners, dtype=float), rules.corner_reach)
+    even = (2 * rules.corner_reach + 1) * sides / (len(outline.points) - 1)
     polygon = (
         rules.rounder.above(ratio)
         + rules.polygonal.below(distance)
-        + rules.convex.below(wrong_turning(outline.points[corners]))
-        + rules.cornered.above(turning_at(outline, corners, rules.corner_reach))
+        + rules.convex.below(wrong)
+        + rules.cornered.above((at_corners - even) / (1 - even))
         + rules.sliver.above(outline.aspect)
     )
-    loop = rules.lobed.above(outline.roundness) + rules.polygonal.above(distance) - rules.rounder.width
+    loop = rules.lobed.above(outline.roundness) + rules.curved.above(distance) - rules.rounder.width
     return {"circle": closed + circle, "polygon": closed + polygon, "lasso": closed + loop}
 
 
@@ -195,28 +192,13 @@ def best_polygon(outline: Ring, rules: Rules = RULES) -> tuple[list[int], float]
     """The corners of the polygon of three to six sides that follows the outline best for its cost, as
     indices of its points, the first repeated as the last; and its rms distance."""
     legs = best_legs(outline.points, 2 + len(rules.side_costs))
-    distances = legs.rms[2:]
-    costs = np.array(rules.side_costs)
+    distances = legs.rms[2:].tolist()
+    costs = list(rules.side_costs)
     if outline.aspect < rules.plank:
         costs[0] *= rules.splinter
-    sides = 3 + int(np.argmin((distances + rules.hand) * costs))
-    return legs.breaks(sides), float(distances[sides - 3])
-
-
-def wrong_turning(corners: FloatArray) -> float:
-    """Share of the turning at the corners (k, 2), the last equal to the first, that is in the wrong
-    sense: 0 for a convex polygon."""
-    turns = turning(np.concatenate([corners, corners[1:2]]))
-    wrong = -(np.sign(turns.sum()) * turns).clip(max=0.0).sum()
-    return float(wrong / (np.abs(turns).sum() + 1e-9))
-
-
-def turning_at(outline: Ring, corners: list[int], reach: int) -> float:
-    """Share of the outline's turning that lies within `reach` points of the corners."""
-    points = outline.points
-    turns = turning(np.concatenate([points[-2:-1], points]))
-    near = (np.array(corners)[:, None] + np.arange(-reach, reach + 1)) % len(turns)
-    return float(turns[np.unique(near)].sum() / (turns.sum() or 1.0))
+    weighed = [(distance + rules.hand) * cost for distance, cost in zip(distances, costs, strict=True)]
+    sides = 3 + weighed.index(min(weighed))
+    return legs.breaks(sides), distances[sides - 3]
 
 
 def spring_evidence(points: FloatArray, found: Teeth, rules: Rules = RULES) -> float:
@@ -226,7 +208,7 @@ def spring_evidence(points: FloatArray, found: Teeth, rules: Rules = RULES) -> f
         + rules.uneven.below(found.uneven)
         + rules.progress.above(found.progress)
         + rules.tooth.above(found.height / max(found.pitch, 1e-6))
-        + rules.apart.above(float(np.hypot(*(points[-1] - points[0]))))
+        + rules.apart.above(hypot(*(points[-1] - points[0]).tolist()))
         + rules.dense.above(found.pitch / max(found.height, 1e-6))
     )
 
@@ -240,17 +222,20 @@ def wire_evidence(points: FloatArray, found: Teeth, rules: Rules = RULES) -> flo
     """Belief in a wire: straight, apart from a hook at either end."""
     hooked = round(rules.hook * len(points))
     deviation = min(rms_from_line(points), rms_from_line(points[hooked:-hooked]))
-    size = float(np.hypot(*(points.max(axis=0) - points.min(axis=0))))
     small_teeth = rules.legs.below(found.legs) if found.height > 0.05 else 0.0
-    return rules.straight.below(deviation) + rules.retraced.below(path_length(points) / size) + small_teeth
+    return (
+        rules.straight.below(deviation)
+        + rules.retraced.below(length_of(points) / extent_of(points))
+        + small_teeth
+    )
 
 
 def arrow_evidence(points: FloatArray, rules: Rules = RULES) -> float:
-    """Belief in an arrow drawn from its tail."""
+    """Belief in an arrow drawn from its tail: as the head lies to the whole shaft, or as it looks by itself."""
     found = head(points)
     if found is None:
         return rules.never
-    return (
+    by_shaft = (
         rules.bow.below(found.bow)
         + rules.barb.above(found.narrower)
         + rules.spread.below(found.wider)
@@ -259,17 +244,10 @@ def arrow_evidence(points: FloatArray, rules: Rules = RULES) -> float:
         + rules.barb_turn.above(found.sharpest)
         + rules.head_ink.below(found.ink)
     )
+    by_itself = head_evidence(points[: found.tip + 1], [points[found.tip :]]) + rules.by_itself
+    return max(by_shaft, by_itself)
 
 
 def rms_from_line(points: FloatArray) -> float:
     """Root mean square distance of points (n, 2) from their best line."""
-    centred = points - points.mean(axis=0)
-    scatter = centred.T @ centred / len(points)
-    half = 0.5 * (scatter[0, 0] + scatter[1, 1])
-    lesser = half - np.hypot(0.5 * (scatter[0, 0] - scatter[1, 1]), scatter[0, 1])
-    return float(np.sqrt(max(lesser, 0.0)))
-
-
-def _log_logistic(value: float) -> float:
-    """log(1 / (1 + e^−value)) without overflow."""
-    return -log1p(exp(-value)) if value > 0 else value - log1p(exp(value))
+    return line_rms(np.ascontiguousarray(points))

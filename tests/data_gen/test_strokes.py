@@ -77,7 +77,7 @@ def test_any_seed_and_index_gives_ink_that_the_border_accepts(seed: int, index: 
 
 
 IDEAL = Recipe(without=NAMES)
-ONE_STROKE = Recipe(without=("several_strokes",))
+ONE_STROKE = Recipe(without=("several_strokes", "broken"))
 
 
 def _meant(kind: StrokeKind, count: int, recipe: Recipe) -> list[tuple[FloatArray, int]]:

@@ -373,3 +373,48 @@ def test_observe_writes_a_table_that_can_be_read_back(pages: Path, tmp_path: Pat
     assert (tmp_path / "c.parquet").read_bytes()[:4] == b"PAR1"
     wrong = inklined("observe", page, "--body", "Z", cwd=tmp_path)
     assert "'Z' is nothing that can move here; C can" in refusal(wrong, 1)
+
+
+# Rivals that learn ------------------------------------------------------------------------------
+
+
+def test_every_recognizer_is_listed_with_what_it_is_and_whose(tmp_path):
+    from recognizer.published import PUBLISHED
+    from recognizer.roster import ROSTER
+
+    told = json.loads(inklined("recognizers", "--json", cwd=tmp_path).stdout)
+    assert [one["name"] for one in told] == [*ROSTER, *PUBLISHED]
+    listed = inklined("recognizers", cwd=tmp_path).stdout
+    for one in told:
+        assert one["summary"] and one["source"] and one["learns_from"]
+        assert one["name"] in listed and one["summary"] in listed
+
+
+def test_published_rivals_learn_from_peoples_rows_and_their_writers_are_not_tested(tmp_path):
+    drawn = inklined("generate", "strokes", "ink.jsonl", "--count", 160, "--seed", 3, cwd=tmp_path)
+    assert drawn.returncode == 0
+    lines = (tmp_path / "ink.jsonl").read_text().splitlines()
+    rows = [{**json.loads(line), "writer": f"w{number % 16}"} for number, line in enumerate(lines)]
+    (tmp_path / "ink.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
+    with environment(INKLINED_CACHE=str(tmp_path / "cache")):
+        finished = inklined(
+            *("compare", "--ink", "ink.jsonl", "--train", "ink.jsonl", "--templates", 2, "--jobs", 1),
+            *("--recognizer", "paper", "penny-pincher", "rubine", "--json", "out.json"),
+            cwd=tmp_path,
+        )
+    assert finished.returncode == 0, finished.stderr
+    figures = json.loads((tmp_path / "out.json").read_text())
+    assert list(figures["recognizers"]) == ["paper", "penny-pincher", "rubine"]
+    left_out = int(re.match(r"(\d+) rows are left out", figures["notices"][0])[1])
+    assert left_out % 10 == 0  # ten rows a writer
+    assert figures["rows"] == 160 - left_out > 0
+
+
+def test_who_learns_must_be_named_and_be_able_to(tmp_path):
+    (tmp_path / "stars.jsonl").write_text('{"label": "star", "strokes": [[[0, 0, null], [9, 9, null]]]}\n')
+    nobody = inklined("compare", "--train", "stars.jsonl", "--recognizer", "paper", cwd=tmp_path)
+    assert "--train teaches the published rivals" in refusal(nobody, 2)
+    nothing = inklined("compare", "--train", "stars.jsonl", "--recognizer", "dollar-p", cwd=tmp_path)
+    assert "no row to learn from: labels are star" in refusal(nothing, 1)
+    gone = inklined("compare", "--train", "gone.jsonl", "--recognizer", "dollar-p", cwd=tmp_path)
+    assert "gone.jsonl" in refusal(gone, 1)

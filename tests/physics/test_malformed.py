@@ -13,6 +13,7 @@ from formula_pages import saying
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fuzz_formulas import NAMES
 from physics.build import build
 from physics.formula.dimensions import check
 from physics.formula.meaning import read
@@ -202,44 +203,7 @@ def test_what_cannot_be_is_explained(text: str, label: str | None, says: str) ->
     assert time.process_time() - started < 4
 
 
-names = st.sampled_from(
-    [
-        "m",
-        "v",
-        "v_x",
-        "v_0",
-        "a",
-        "F",
-        "f_1",
-        "N",
-        "T",
-        "T_1",
-        "k",
-        "L",
-        "theta",
-        "alpha",
-        "mu",
-        "e",
-        "x",
-        "y",
-        "s",
-        "r",
-        "W",
-        "p",
-        "E",
-        "h",
-        "t",
-        "g",
-        "omega",
-        "rho",
-        "q",
-        "v_B",
-        "m_C",
-        "F_x",
-        "v'",
-        "ΣF",
-    ]
-)
+names = st.sampled_from(NAMES)
 values = st.sampled_from(
     ["0", "1", "-3", "2.5", "5\\,kg", "|W|", "W", "v", "t", "1/t", "theta", "q", "f_1", "pi/4", "-mu*v", "m*g", "m_C", "v_B", "sin(t)", "sqrt(x)", "(0,5)", "(t,1/t)", "exp(exp(9))", "(1,2,3)", "((", "m*a", "36\\,km/h", "30°", "2\\,m", "1/2*m*v^2"]
 )  # fmt: skip

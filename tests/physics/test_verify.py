@@ -73,6 +73,8 @@ def test_the_right_answer_is_right_however_it_is_written(answer, true):
         ("N = -16.99", "wrong sign"),
         ("N = 33.98", "factor 2"),
         ("N = 3.026", "degrees for radians"),
+        ("N = |W| g cos(theta)", "weight for mass"),
+        ("N = 166.7", "weight for mass"),
         ("N = 5", None),
     ],
 )
@@ -83,6 +85,20 @@ def test_a_wrong_answer_is_explained_where_a_known_misconception_made_it(answer,
     assert verdict.true == pytest.approx(2 * G * cos(pi / 6), rel=1e-9)
     assert verdict.error == pytest.approx(abs(verdict.given - verdict.true) / verdict.true)
     assert answer in verdict.message
+
+
+@pytest.mark.parametrize(
+    ("answer", "says"),
+    [
+        ("N = 15.29", "it is 16.99 N, so this is 10 % too small"),
+        ("N = 17.5", "it is 16.99 N, so this is 3 % too great"),
+        ("N = 166.7", "it is 16.99 N, so this is 9.8 times as much; it seems that the weight was put"),
+        ("N = -16.99", "it is 16.99 N; it seems that a sign"),
+    ],
+)
+def test_how_far_off_an_answer_is_is_said_as_people_say_it(answer, says):
+    (verdict,) = verdicts(incline(answer))
+    assert says in verdict.message
 
 
 def test_a_number_rounded_to_fewer_digits_than_three_is_wrong_and_that_is_said():

@@ -74,6 +74,20 @@ def test_a_polygon_has_the_corners_that_were_drawn(vertices: list[list[float]], 
         assert corners_apart(shape.vertices, meant) < 0.03 * size
 
 
+def test_a_plank_whose_end_was_left_over_is_a_plank_and_no_needle() -> None:
+    """Its short side is drawn first and overshoots: it is cut off as what hangs over, but there is ink of it."""
+    path = np.array([[5, -20], [0, 4], [0, 8], [250, 5], [500, 16], [508, -25], [250, -28], [-2, 2.0]])
+    shape = fit("polygon", drawn(path, 300))
+    assert isinstance(shape, Polygon)
+    assert len(shape.vertices) == 4
+    left = shape.vertices[shape.vertices[:, 0] < 100]
+    assert len(left) == 2
+    assert np.ptp(left[:, 1]) > 20
+    wedge = fit("polygon", drawn(ideals.polygon([[0, 100], [400, 100], [400, 20]], 0.5, 0.0)))
+    assert isinstance(wedge, Polygon)
+    assert len(wedge.vertices) == 3
+
+
 def test_polygons_are_convex_whatever_was_drawn() -> None:
     dart = ideals.polygon([[0, 0], [100, 50], [0, 100], [35, 50]])
     shape = fit("polygon", drawn(dart))

@@ -36,6 +36,8 @@ EXACT = 1e-11
 """Share of the greatest speed about by which one may be wrong where the sweeps do not settle."""
 SINGULAR = 1e-11
 """A pivot below this, of rows scaled to one: the row repeats others, and keeps what the sweeps gave it."""
+SETS = 4096
+"""Sets of rows that are all tried where the worst-first rule finds no end: six contacts with friction."""
 IDLE, PUSHES = 0, 1
 """Of a row that takes part: it is left, or it holds its aim."""
 SMOOTH, STICKS, SLIPS = 0, 1, 2
@@ -58,7 +60,7 @@ def blow(w: Any, rows: Table, vel: FloatArray) -> bool:
             look *= 2
             if _solved(w, rows, vel, EXACT * swift):
                 return True
-    return moved <= EXACT * swift
+    return moved <= EXACT * swift or _searched(w, rows, vel, EXACT * swift)
 
 
 @part
@@ -92,15 +94,13 @@ def _sweep(w: Any, rows: Table, vel: FloatArray) -> float:
             row.force = total
             _push(row, row.J, change, inverse, vel)
             moved = max(moved, abs(change) * give)
-        if _rubs(row):
-            give, rate = _give(row, row.T, inverse), _rate(row, row.T, vel)
-            if give > 0.0:
-                bound = _bound(row)
-                total = min(max(row.rub - rate / give, -bound), bound)
-                change = total - row.rub
-                row.rub = total
-                _push(row, row.T, change, inverse, vel)
-                moved = max(moved, abs(change) * give)
+        if _rubs(row, inverse):
+            give, rate, bound = _give(row, row.T, inverse), _rate(row, row.T, vel), _bound(row)
+            total = min(max(row.rub - rate / give, -bound), bound)
+            change = total - row.rub
+            row.rub = total
+            _push(row, row.T, change, inverse, vel)
+            moved = max(moved, abs(change) * give)
     return moved
 
 
@@ -110,8 +110,13 @@ def _pulls(row: Any) -> bool:
 
 
 @part
-def _rubs(row: Any) -> bool:
-    return row.kind <= POINT and row.mu > 0.0
+def _takes_part(row: Any, inverse: FloatArray) -> bool:
+    return row.bound > 0.0 and _give(row, row.J, inverse) > 0.0
+
+
+@part
+def _rubs(row: Any, inverse: FloatArray) -> bool:
+    return row.kind <= POINT and row.mu > 0.0 and _give(row, row.T, inverse) > 0.0
 
 
 @part
@@ -151,42 +156,21 @@ def _solved(w: Any, rows: Table, vel: FloatArray, most: float) -> bool:
     inverse = inverses(w)
     push, grip, sense = np.zeros(n, np.int64), np.zeros(n, np.int64), np.zeros(n)
     force, rub = np.zeros(n), np.zeros(n)
-    bare = vel.copy()
     for k in range(n):
         row = rows[k]
-        if row.bound == 0.0 or _give(row, row.J, inverse) <= 0.0:
-            continue
-        _push(row, row.J, -row.force, inverse, bare)
-        _push(row, row.T, -row.rub, inverse, bare)
-        push[k] = PUSHES if _pulls(row) or row.force > 0.0 else IDLE
-        if _rubs(row) and _give(row, row.T, inverse) > 0.0:
-            sticks = abs(row.rub) < _bound(row) or row.force <= 0.0
-            grip[k] = STICKS if sticks else SLIPS
-            sense[k] = np.sign(row.rub)
+        if _takes_part(row, inverse):
+            push[k] = PUSHES if _pulls(row) or row.force > 0.0 else IDLE
+            if _rubs(row, inverse):
+                sticks = abs(row.rub) < _bound(row) or row.force <= 0.0
+                grip[k] = STICKS if sticks else SLIPS
+                sense[k] = np.sign(row.rub)
+    bare = _unpushed(rows, inverse, vel)
+    after = bare.copy()
     for _ in range(4 * n + 8):
-        for k in range(n):
-            row = rows[k]
-            force[k] = row.force if push[k] == PUSHES else 0.0
-            rub[k] = 0.0
-            if push[k] == PUSHES and grip[k] == STICKS:
-                rub[k] = row.rub
-            elif push[k] == PUSHES and grip[k] == SLIPS:
-                rub[k] = sense[k] * row.mu * force[k]
-        after = bare.copy()
-        for k in range(n):
-            if push[k] == PUSHES:
-                _push(rows[k], rows[k].J, force[k], inverse, after)
-                _push(rows[k], rows[k].T, rub[k], inverse, after)
-        for _ in range(2):
-            # Twice: the second time mends what rounding left.
-            _step(rows, inverse, push, grip, sense, force, rub, after)
+        _impulses(rows, inverse, push, grip, sense, bare, force, rub, after)
         worst, what = _worst(rows, inverse, push, grip, sense, force, rub, after, most)
         if what == 0:
-            for k in range(n):
-                rows[k].force, rows[k].rub = force[k], rub[k]
-            for i in range(len(vel)):
-                for a in range(3):
-                    vel[i, a] = after[i, a]
+            _take(rows, vel, force, rub, after)
             return True
         if what < 0:
             return False
@@ -199,6 +183,98 @@ def _solved(w: Any, rows: Table, vel: FloatArray, most: float) -> bool:
         else:
             grip[worst] = STICKS
     return False
+
+
+@part
+def _searched(w: Any, rows: Table, vel: FloatArray, most: float) -> bool:
+    """The same by trying every set of rows that push, stick, slip to and fro, where there are few enough."""
+    n = len(rows)
+    inverse = inverses(w)
+    push, grip, sense = np.zeros(n, np.int64), np.zeros(n, np.int64), np.zeros(n)
+    force, rub = np.zeros(n), np.zeros(n)
+    ways = np.ones(n, np.int64)
+    sets = 1
+    for k in range(n):
+        row = rows[k]
+        if _takes_part(row, inverse):
+            ways[k] = 3 if _rubs(row, inverse) else 1
+            if not _pulls(row):
+                ways[k] += 1
+            sets *= ways[k]
+            if sets > SETS:
+                return False
+    bare = _unpushed(rows, inverse, vel)
+    after = bare.copy()
+    for chosen in range(sets):
+        rest = chosen
+        for k in range(n):
+            way = rest % ways[k]
+            rest //= ways[k]
+            row = rows[k]
+            push[k] = IDLE
+            if not _takes_part(row, inverse) or (way == 0 and not _pulls(row)):
+                continue
+            push[k] = PUSHES
+            grip[k] = SMOOTH
+            if _rubs(row, inverse):
+                turn = way if _pulls(row) else way - 1
+                grip[k] = STICKS if turn == 0 else SLIPS
+                sense[k] = 0.0 if turn == 0 else (1.0 if turn == 1 else -1.0)
+        _impulses(rows, inverse, push, grip, sense, bare, force, rub, after)
+        if _worst(rows, inverse, push, grip, sense, force, rub, after, most)[1] == 0:
+            _take(rows, vel, force, rub, after)
+            return True
+    return False
+
+
+@part
+def _unpushed(rows: Table, inverse: FloatArray, vel: FloatArray) -> FloatArray:
+    """The velocities without the impulses that rows have."""
+    bare = vel.copy()
+    for k in range(len(rows)):
+        _push(rows[k], rows[k].J, -rows[k].force, inverse, bare)
+        _push(rows[k], rows[k].T, -rows[k].rub, inverse, bare)
+    return bare
+
+
+@part
+def _impulses(
+    rows: Table,
+    inverse: FloatArray,
+    push: IntArray,
+    grip: IntArray,
+    sense: FloatArray,
+    bare: FloatArray,
+    force: FloatArray,
+    rub: FloatArray,
+    after: FloatArray,
+) -> None:
+    """Fills in force, rub and the velocities after them, for a set of rows that push and stick. What rows have
+    already stays where many impulses would do."""
+    after[:] = bare
+    for k in range(len(rows)):
+        row = rows[k]
+        force[k] = row.force if push[k] == PUSHES else 0.0
+        rub[k] = 0.0
+        if push[k] == PUSHES:
+            if grip[k] == STICKS:
+                rub[k] = row.rub
+            elif grip[k] == SLIPS:
+                rub[k] = sense[k] * row.mu * force[k]
+            _push(row, row.J, force[k], inverse, after)
+            _push(row, row.T, rub[k], inverse, after)
+    for _ in range(2):
+        # Twice: the second time mends what rounding left.
+        _step(rows, inverse, push, grip, sense, force, rub, after)
+
+
+@part
+def _take(rows: Table, vel: FloatArray, force: FloatArray, rub: FloatArray, after: FloatArray) -> None:
+    for k in range(len(rows)):
+        rows[k].force, rows[k].rub = force[k], rub[k]
+    for i in range(len(vel)):
+        for a in range(3):
+            vel[i, a] = after[i, a]
 
 
 @part
@@ -225,20 +301,20 @@ def _step(
     full, goal, scale = np.zeros((m, m)), np.zeros(m), np.zeros(m)
     nudge = np.zeros_like(after)
     for a in range(m):
-        row = rows[owner[a]]
+        row: Any = rows[owner[a]]
         scale[a] = 1.0 / sqrt(_give(row, row.T if tangent[a] else row.J, inverse))
     for b in range(m):
-        row = rows[owner[b]]
+        column: Any = rows[owner[b]]
         nudge[:] = 0.0
         if tangent[b]:
-            _push(row, row.T, scale[b], inverse, nudge)
+            _push(column, column.T, scale[b], inverse, nudge)
         else:
-            _push(row, row.J, scale[b], inverse, nudge)
+            _push(column, column.J, scale[b], inverse, nudge)
             if grip[owner[b]] == SLIPS:
-                _push(row, row.T, scale[b] * sense[owner[b]] * row.mu, inverse, nudge)
+                _push(column, column.T, scale[b] * sense[owner[b]] * column.mu, inverse, nudge)
         for a in range(m):
-            other = rows[owner[a]]
-            full[a, b] = scale[a] * _rate(other, other.T if tangent[a] else other.J, nudge)
+            row = rows[owner[a]]
+            full[a, b] = scale[a] * _rate(row, row.T if tangent[a] else row.J, nudge)
     for a in range(m):
         row = rows[owner[a]]
         lacks = -_rate(row, row.T, after) if tangent[a] else row.along - _rate(row, row.J, after)
@@ -312,11 +388,9 @@ def _worst(
     worst, which, what = most, 0, 0
     for k in range(len(rows)):
         row = rows[k]
-        if row.bound == 0.0:
+        if not _takes_part(row, inverse):
             continue
         give = _give(row, row.J, inverse)
-        if give <= 0.0:
-            continue
         lacks = row.along - _rate(row, row.J, after)
         if push[k] == IDLE:
             if lacks > worst:

@@ -8,6 +8,8 @@ until none is. Sources: Baraff (1994), Fast contact force computation; Featherst
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import product
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -32,19 +34,22 @@ WEAK = 1e-9
 TRIES = 60
 """Changes of the set, for each row, before the worst one first gives way to the first one first."""
 
+SETS = 1024
+"""Sets of rows that are all tried where changing one at a time finds no end: five contacts at rest with friction."""
+
 CLOSE, OPEN, SLIP, HOLD = 1, 2, 3, 4
 
 
 class Undecided(ArithmeticError):
     """No set of rows was found that fits: more contacts, or tighter jams, than this method is made for.
 
-    jam: the row (a number) that slips and can neither hold nor leave, as in Painlevé's paradox: its friction
-    would press it the harder the more it is pressed; −1 where it is none.
+    jams: rows (numbers) that slip, the likeliest first: one of them may be such as can neither hold nor leave, as in
+    Painlevé's paradox: its friction would press it the harder the more it is pressed.
     """
 
-    def __init__(self, jam: int = -1) -> None:
+    def __init__(self, jams: tuple[int, ...]) -> None:
         super().__init__()
-        self.jam = jam
+        self.jams = jams
 
 
 def decide(world: World, rows: Table, make: Callable[[Table], Machine], time: float) -> Machine:
@@ -53,16 +58,33 @@ def decide(world: World, rows: Table, make: Callable[[Table], Machine], time: fl
     Rows come with a guess: contacts and wires that hold now, and those that no longer do. make: the machine
     for rows as they are, in the state of this moment. Raises Undecided.
     """
+    guess = rows.copy()
+    machine, last = _changed_in_turn(world, rows, make, time)
+    if machine is None:
+        rows[:] = guess
+        machine = _tried_all(world, rows, make, time)
+    if machine is None:
+        slips = np.flatnonzero((rows["kind"] <= POINT) & (np.abs(rows["slip"]) > SLOW) & (rows["mu"] > 0.0))
+        slowest = slips[np.argsort(np.abs(rows["slip"][slips]), kind="stable")].tolist()
+        raise Undecided(tuple(sorted(slowest, key=lambda k: k != last)))
+    return machine
+
+
+def _changed_in_turn(
+    world: World, rows: Table, make: Callable[[Table], Machine], time: float
+) -> tuple[Machine | None, int]:
+    """Changes one row at a time until all agree; None, and the row that was changed last, where that does not end."""
     seen: set[bytes] = set()
     change = np.zeros(2, np.int64)
     orderly = False
+    k = -1
     for _ in range(TRIES + 4 * len(rows)):
         machine = make(rows)
         accelerated(world.cells, machine.cells, time)
         wrong(world.cells, machine.cells, orderly, change)
         k, what = int(change[0]), int(change[1])
         if what == 0:
-            return machine
+            return machine, k
         row, found = rows[k], machine.rows[k]
         if what == CLOSE:
             row["status"] = ON
@@ -78,11 +100,46 @@ def decide(world: World, rows: Table, make: Callable[[Table], Machine], time: fl
         state = rows["status"].tobytes() + rows["grip"].tobytes() + np.sign(rows["sigma"]).tobytes()
         if state in seen:
             if orderly:
-                raise Undecided(k if what in (CLOSE, OPEN) and row["grip"] == SLIDE else -1)
+                break
             orderly = True
             seen.clear()
         seen.add(state)
-    raise Undecided
+    return None, k
+
+
+def _tried_all(world: World, rows: Table, make: Callable[[Table], Machine], time: float) -> Machine | None:
+    """The first set of rows that agrees, of all that there are; None where none does, or there are too many."""
+    free = np.flatnonzero((rows["kind"] <= CORD) | (rows["kind"] == GIVEN)).tolist()
+    ways = [_ways(rows[k]) for k in free]
+    if prod(map(len, ways)) > SETS:
+        return None
+    change = np.zeros(2, np.int64)
+    for chosen in product(*ways):
+        for k, way in zip(free, chosen, strict=True):
+            rows[k]["status"], rows[k]["grip"], rows[k]["sigma"] = way
+        machine = make(rows)
+        accelerated(world.cells, machine.cells, time)
+        wrong(world.cells, machine.cells, True, change)
+        if change[1] == 0:
+            return machine
+    return None
+
+
+def _ways(row: Any) -> list[tuple[int, int, float]]:
+    """Every (status, grip, sigma) that a row may have as it goes now."""
+    sigma = float(np.sign(row["slip"]))
+    if row["kind"] == CORD or row["mu"] <= 0.0:
+        grips = [(FREE, 0.0)]
+    elif abs(row["slip"]) > SLOW:
+        grips = [(SLIDE, sigma)]
+    else:
+        grips = [(STICK, 0.0), (SLIDE, 1.0), (SLIDE, -1.0)]
+    held = [(ON, grip, sense) for grip, sense in grips]
+    if row["kind"] == GIVEN:
+        return held
+    away = (OFF, *grips[0])
+    closed = row["gap"] <= TOUCHING and row["rate"] <= SLOW
+    return [*held, away] if closed else [away]
 
 
 def _join_partner(rows: Table, row: Any) -> None:

@@ -21,10 +21,11 @@ from physics.engine.exact import decide as de
 from physics.engine.exact import flow as fl
 from physics.engine.exact import happen as ha
 from physics.engine.exact import strike as st
-from physics.engine.exact.blow import HELD
+from physics.engine.exact.blow import HELD, JAMMED
 from physics.engine.exact.explain import explain, follow_frames
 from physics.engine.exact.integrate import projected
 from physics.engine.exact.machine import FIRST, H, Machine, T, machine_of
+from physics.engine.exact.moments import CRAWLS, FULL, HAPPENED, MET, STOPPED, SWITCHED
 from physics.engine.exact.record import Record
 from physics.engine.exact.rest import CALM, at_rest, liveliest
 from physics.engine.exact.solve import LARGEST, system_of
@@ -46,10 +47,15 @@ CROWD = 400
 """Events within `CROWD_TIME` after which nothing rebounds any more."""
 CROWD_TIME = 1e-3
 """s."""
+CREEP = 1e-4
+"""m/s: what slips slower in such a crowd of events is stopped: between two others a disc may roll to and fro, each
+time a little less, without end."""
 MANY = 16
 """Bodies that can move from which on a crowd is left to robust mode, where there is a choice, as soon as it has
 more events than bodies within `ENDLESS_TIME`: each costs as much as all robust steps between two frames."""
-STUCK = 40
+SHAKEN = 20
+"""Events at one moment after which nothing rebounds any more: corners that hand a blow round lose little each time."""
+STUCK = 80
 """Events at one moment after which exact mode gives up."""
 LOOKS = 64
 """Steps after which it is looked whether a cluster has come to rest while nothing happened."""
@@ -115,16 +121,16 @@ class ExactRun:
                 self.time = until
                 return
             code = self._flow(self.modes[-1], until)
-            if code in (fl.HAPPENED, fl.MET, fl.SWITCHED):
+            if code in (HAPPENED, MET, SWITCHED):
                 self._happen(code)
-            elif code == fl.STOPPED:
+            elif code == STOPPED:
                 self._stop()
-            elif code == fl.CRAWLS and not self.names.timeless:
+            elif code == CRAWLS and not self.names.timeless:
                 # A formula that grows without bound, as 1/(t − 1) does.
                 self._stop()
-            elif code == fl.CRAWLS:
+            elif code == CRAWLS:
                 raise TooMuch
-            elif code == fl.FULL:
+            elif code == FULL:
                 if self._crawls():
                     raise TooMuch
                 self._try_sleep()
@@ -216,12 +222,16 @@ class ExactRun:
         rows = gathered_rows(self.world, self.rows, self.pos, self.vel)
         if closes(rows):
             self._strike(rows)
+        creeps = (rows["kind"] <= POINT) & (rows["mu"] > 0.0) & (rows["gap"] <= TOUCHING)
+        creeps &= (np.abs(rows["slip"]) > de.SLOW) & (np.abs(rows["slip"]) < CREEP)
+        if len(self.lately) > CROWD and creeps.any():
+            self._stop_slips(rows, creeps)
         if parts(rows):
             rows = rows[~((rows["kind"] <= POINT) & (rows["rate"] > st.APPROACH))]
         try:
             machine = de.decide(self.world, rows, self._machine, self.time)
         except de.Undecided as undecided:
-            self._unjam(rows, undecided.jam)
+            self._unjam(rows, undecided.jams)
             self._settle()
             return
         if projected(self.world.cells, machine.cells):
@@ -274,9 +284,8 @@ class ExactRun:
             self._press(rows, approach)
             rows["shut"] = 0
             before = np.zeros_like(self.vel)
-            self._lose(
-                st.strike(self.world.cells, rows, self.pos, self.vel, rise, lately > CROWD, before, struck)
-            )
+            crowded = lately > CROWD or self._at_once() > SHAKEN
+            self._lose(st.strike(self.world.cells, rows, self.pos, self.vel, rise, crowded, before, struck))
             self.tell.impacts(self.time, rows, struck)
         if not self._hold(rows, closed & (rows["kind"] <= CORD), rise) and not (approach.any() or pins.any()):
             return
@@ -322,16 +331,28 @@ class ExactRun:
         de.pressing(machine.cells)
         rows["press"] = machine.rows["press"]
 
-    def _unjam(self, rows: Table, jam: int) -> None:
-        """Stops the slip that no forces can go with. Raises TooMuch where that is not what is wrong."""
-        heat = st.unjam(self.world.cells, rows, self.pos, self.vel, jam) if jam >= 0 else np.nan
+    def _unjam(self, rows: Table, jams: tuple[int, ...]) -> None:
+        """Stops a slip that no forces can go with. Raises TooMuch where that is not what is wrong."""
+        for jam in jams:
+            if self._stop_slips(rows, np.arange(len(rows)) == jam) and rows[jam]["force"] > 0.0:
+                self._count()
+                self.rows = rows
+                return
+        raise TooMuch
+
+    def _stop_slips(self, rows: Table, which: BoolArray) -> bool:
+        """Stops them by impulses, whatever these take; nothing changes where there are none that do, or where they
+        would do more than stop."""
+        vel = self.vel.copy()
+        rows["bound"] = np.where(which, JAMMED, 0.0)
+        heat = st.stop(self.world.cells, rows, self.pos, self.vel)
         if not heat >= 0:
-            raise TooMuch
-        self._count()
+            self.vel[:] = vel
+            return False
         self.works[0] += heat
         for k in np.flatnonzero(rows["kind"] <= POINT).tolist():
             de.take_grip(rows, k)
-        self.rows = rows
+        return True
 
     def _note_shut(self, row: Any, speed: float) -> None:
         """When the rebounds that are left out would have ended: flights of 2 e v / a, each e times the last."""
@@ -344,7 +365,7 @@ class ExactRun:
         """One event: marks what it changes, then settles."""
         self._count()
         self.world = copied(self.world)
-        if code == fl.HAPPENED:
+        if code == HAPPENED:
             machine = self.modes[-1].machine
             de.accelerated(self.world.cells, machine.cells, self.time)
             # A copy: the machine's own rows tell what held until now.
@@ -356,10 +377,14 @@ class ExactRun:
         """Counts an event of this moment. Raises TooMuch where they would never end."""
         self.lately = [when for when in self.lately if when > self.time - ENDLESS_TIME]
         self.lately.append(self.time)
-        if sum(when > self.time - 1e-12 for when in self.lately) > STUCK or len(self.lately) > ENDLESS:
+        if self._at_once() > STUCK or len(self.lately) > ENDLESS:
             raise TooMuch
         if not self.patient and len(self.lately) > self.names.movable >= MANY:
             raise TooMuch
+
+    def _at_once(self) -> int:
+        """How many events there have been at this moment."""
+        return sum(when > self.time - 1e-12 for when in self.lately)
 
     def _crawls(self) -> bool:
         """Whether so many steps went no way at all: more would not end."""

@@ -124,23 +124,25 @@ def hold(cells: FloatArray, rows: Table, pos: FloatArray, vel: FloatArray, rise:
 
 
 @kernel
-def unjam(cells: FloatArray, rows: Table, pos: FloatArray, vel: FloatArray, jam: int) -> float:
-    """Stops the slip of a row that can neither hold nor leave, by an impulse without an impact (Painlevé 1895; Génot
-    and Brogliato 1999). Changes `vel`; returns the heat, J: NaN where only a pull would do it.
+def stop(cells: FloatArray, rows: Table, pos: FloatArray, vel: FloatArray) -> float:
+    """Stops the slip of rows marked `JAMMED` by impulses without an impact; what else is shut stays so. Changes `vel`;
+    returns the heat, J: NaN where no blow was found.
 
     The rubbing may leave friction's cone a little where the blow sets another contact slipping: rigid bodies have no
-    better answer there."""
+    better answer where a row can neither hold nor leave (Painlevé 1895; Génot and Brogliato 1999)."""
     w = head(cells, WORLD)
     energy = kinetic(w, vel)
     refresh_table(rows, pos, vel)
     for k in range(len(rows)):
         row = rows[k]
         shut = row.gap <= TOUCHING and row.kind != GIVEN and (row.kind >= PIN_X or row.rate <= APPROACH)
-        row.bound, row.along = (1.0 if shut else 0.0), 0.0
-    rows[jam].bound = JAMMED
-    found = blow(w, rows, vel)
+        row.along = 0.0
+        if row.bound != JAMMED:
+            row.bound = 1.0 if shut else 0.0
+    if not blow(w, rows, vel):
+        return np.nan
     refresh_table(rows, pos, vel)
-    return energy - kinetic(w, vel) if found and rows[jam].force > 0.0 else np.nan
+    return energy - kinetic(w, vel)
 
 
 @part

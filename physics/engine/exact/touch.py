@@ -157,6 +157,40 @@ def _blank(row: Any, w: Any, p: int, i: int, j: int) -> None:
 
 
 @part
+def _handed_on(
+    w: Any, pos: FloatArray, vel: FloatArray, i: int, j: int, face: int, at: int
+) -> tuple[int, int]:
+    """Where the centre of disc j outside block i goes over from a face to the corner at its end, or back, at this
+    very moment: which of the two it is from now on. face, at: as `nearest` finds them."""
+    low, n = firsts(w)[i], counts(w)[i]
+    if at < 0:
+        along, drift = _passage(w, pos, vel, i, j, face)
+        if along < TOUCHING and drift < 0.0:
+            return face, face
+        if along > edges(w)[face] - TOUCHING and drift > 0.0:
+            return face, face + 1 if face + 1 < low + n else low
+        return face, -1
+    last = at - 1 if at > low else low + n - 1
+    along, drift = _passage(w, pos, vel, i, j, at)
+    if abs(along) < TOUCHING and drift > 0.0:
+        return at, -1
+    along, drift = _passage(w, pos, vel, i, j, last)
+    if abs(along - edges(w)[last]) < TOUCHING and drift < 0.0:
+        return last, -1
+    return face, at
+
+
+@part
+def _passage(w: Any, pos: FloatArray, vel: FloatArray, i: int, j: int, face: int) -> tuple[float, float]:
+    """How far along a face of block i the centre of disc j is, m, and how fast it goes along it, m/s."""
+    x, y = within(pos, i, pos[j, 0], pos[j, 1])
+    ux, uy = turned(-pos[i, 2], vel[j, 0] - vel[i, 0], vel[j, 1] - vel[i, 1])
+    nx, ny = normals(w)[face, 0], normals(w)[face, 1]
+    along = -ny * (x - corners(w)[face, 0]) + nx * (y - corners(w)[face, 1])
+    return along, -ny * (ux + vel[i, 2] * y) + nx * (uy - vel[i, 2] * x)
+
+
+@part
 def _disc_on_block(
     w: Any, pos: FloatArray, vel: FloatArray, p: int, i: int, j: int, reach: float, rows: Table, n: int
 ) -> int:
@@ -164,16 +198,8 @@ def _disc_on_block(
     distance, face, at = nearest(w, i, x, y)
     if distance - radii(w)[j] > reach:
         return n
-    nx, ny = normals(w)[face, 0], normals(w)[face, 1]
-    along = -ny * (x - corners(w)[face, 0]) + nx * (y - corners(w)[face, 1])
-    if at < 0 and distance > 0.0:
-        # At the end of a face, on its way past it: the corner takes over.
-        ux, uy = turned(-pos[i, 2], vel[j, 0] - vel[i, 0], vel[j, 1] - vel[i, 1])
-        drift = -ny * (ux + vel[i, 2] * y) + nx * (uy - vel[i, 2] * x)
-        if along < TOUCHING and drift < 0.0:
-            at = face
-        elif along > edges(w)[face] - TOUCHING and drift > 0.0:
-            at = face + 1 if face + 1 < firsts(w)[i] + counts(w)[i] else firsts(w)[i]
+    if distance > 0.0:
+        face, at = _handed_on(w, pos, vel, i, j, face, at)
     row = rows[n]
     _blank(row, w, p, i, j)
     if at >= 0:
@@ -182,7 +208,7 @@ def _disc_on_block(
     else:
         row.kind, row.feature = FACE, 1000 + face - firsts(w)[i]
         row.ax, row.ay = corners(w)[face, 0], corners(w)[face, 1]
-        row.nx0, row.ny0 = nx, ny
+        row.nx0, row.ny0 = normals(w)[face, 0], normals(w)[face, 1]
         row.length = edges(w)[face]
     row.rj = radii(w)[j]
     return n + 1
@@ -238,15 +264,75 @@ def _block_on_block(
     one, other, face, gap = i, j, face_i, gap_i
     if gap_j > gap_i + TOUCHING:
         one, other, face, gap = j, i, face_j, gap_j
+    start = n
+    n = _corners_on_face(w, pos, vel, p, one, face, other, gap, reach, rows, n, start)
+    n = _flush_with_face(w, pos, vel, p, one, face, other, gap, reach, rows, n, start)
+    if n == start:
+        # Corner on corner, on its way past the end of this face: another face carries it, or one carries the other's.
+        for side in range(2):
+            mine, its = (one, other) if side == 0 else (other, one)
+            for q in range(firsts(w)[mine], firsts(w)[mine] + counts(w)[mine]):
+                if n == start and _keeps_off(w, pos, mine, q, its) > gap - SAME:
+                    n = _corners_on_face(w, pos, vel, p, mine, q, its, gap, reach, rows, n, start)
+    return n
+
+
+@part
+def _keeps_off(w: Any, pos: FloatArray, i: int, face: int, j: int) -> float:
+    """How far a face of block i keeps block j away, m."""
+    nx, ny = turned(pos[i, 2], normals(w)[face, 0], normals(w)[face, 1])
+    ax, ay = corner(w, pos, i, face)
+    least = 1e300
+    for v in range(firsts(w)[j], firsts(w)[j] + counts(w)[j]):
+        px, py = corner(w, pos, j, v)
+        least = min(least, nx * (px - ax) + ny * (py - ay))
+    return least
+
+
+@part
+def _corners_on_face(
+    w: Any,
+    pos: FloatArray,
+    vel: FloatArray,
+    p: int,
+    one: int,
+    face: int,
+    other: int,
+    gap: float,
+    reach: float,
+    rows: Table,
+    n: int,
+    start: int,
+) -> int:
+    """Adds the corners of the other block that lie on a face of this one."""
     nx, ny = turned(pos[one, 2], normals(w)[face, 0], normals(w)[face, 1])
     ax, ay = corner(w, pos, one, face)
-    start = n
-    low = firsts(w)[other]
-    for v in range(low, low + counts(w)[other]):
+    for v in range(firsts(w)[other], firsts(w)[other] + counts(w)[other]):
         px, py = corner(w, pos, other, v)
         if nx * (px - ax) + ny * (py - ay) <= gap + SAME:
             n = _corner_on_face(w, pos, vel, p, one, face, other, v, reach, rows, n, start)
-    # A face of the other that lies flush carries the ends of this one's face.
+    return n
+
+
+@part
+def _flush_with_face(
+    w: Any,
+    pos: FloatArray,
+    vel: FloatArray,
+    p: int,
+    one: int,
+    face: int,
+    other: int,
+    gap: float,
+    reach: float,
+    rows: Table,
+    n: int,
+    start: int,
+) -> int:
+    """Adds the ends of a face of this block that are carried by a face of the other which lies flush with it."""
+    nx, ny = turned(pos[one, 2], normals(w)[face, 0], normals(w)[face, 1])
+    ax, ay = corner(w, pos, one, face)
+    low = firsts(w)[other]
     for q in range(low, low + counts(w)[other]):
         mx, my = turned(pos[other, 2], normals(w)[q, 0], normals(w)[q, 1])
         px, py = corner(w, pos, other, q)
