@@ -14,17 +14,18 @@ import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from datetime import date
+from math import cos, sin
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from data_gen.families import arrow
 from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import track
 from scipy.optimize import minimize
 from scipy.special import log_softmax, softmax
 
+from data_gen.ideals import arrow_head, line
 from data_gen.pages import pages
 from data_gen.pen import draw
 from data_gen.strokes import generate
@@ -36,8 +37,6 @@ from sketch.ink import FloatArray, Ink
 from sketch.page import STROKE_KINDS, StrokeKind
 
 KINDS = len(STROKE_KINDS)
-BARBS = 3
-"""Points of an arrow's path that are its head: barb, tip, barb."""
 Drawn = tuple[Ink, Sequence[StrokeKind | None]]
 """A page, and what each of its strokes is; None for one that belongs to nobody."""
 
@@ -136,9 +135,11 @@ def _on_pages(count: int, seed: int) -> Iterator[Drawn]:
 
 
 def _arrow_in_two(rng: np.random.Generator) -> Ink:
-    """A shaft and its head: the generator's arrow, the pen lifted at the tip."""
-    path = RULE.size * arrow(rng)
-    return Ink(tuple(draw([path[:-BARBS], path[-BARBS:]], sample_writer(rng), rng)))
+    """A shaft and its head: barbs of a tenth to a half of the shaft, 15 to 50 degrees from it."""
+    angle, share, opening = rng.uniform((0.0, 0.1, 0.26), (2 * np.pi, 0.5, 0.87)).tolist()
+    start, tip = (0.0, 0.0), (RULE.size * cos(angle), RULE.size * sin(angle))
+    head = arrow_head(start, tip, share * RULE.size, opening)
+    return Ink(tuple(draw([line(start, tip), head], sample_writer(rng), rng)))
 
 
 def main(arguments: list[str] | None = None) -> int:

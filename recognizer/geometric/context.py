@@ -91,8 +91,9 @@ def gestures(ink: Ink, polygons: Sequence[bool], rule: GestureRule = GESTURES) -
         if is_scribble(stroke, [ink[other] for other in earlier], rule):
             found[index] = "scribble"
         else:
-            small = [ink[other] for other in earlier if sizes[other] <= rule.worth * sizes[index]]
-            worthy = [ink[other] for other in earlier if sizes[other] > rule.worth * sizes[index]]
+            smaller = [other for other in earlier if sizes[other] < sizes[index]]
+            small = [ink[other] for other in smaller if sizes[other] <= rule.worth * sizes[index]]
+            worthy = [ink[other] for other in smaller if sizes[other] > rule.worth * sizes[index]]
             held = enclosed(stroke, [*worthy, *small], rule)
             if sum(held) >= rule.several or (
                 any(held[: len(worthy)]) and not _angular(stroke, polygons[index])

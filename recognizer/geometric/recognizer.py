@@ -40,6 +40,11 @@ class Confidence:
     sign: float = log(0.8)
     """Belief, its logarithm, in a sign where straight strokes cross on no shape: a wire that crosses another is
     as rare as people are careful."""
+    window: int = 256
+    """Strokes in drawing order that are looked at together, more than a page of mathematics has: what belongs
+    together was drawn together, and a heap of 10,000 strokes stays a matter of seconds."""
+    overlap: int = 32
+    """Strokes that two windows share, so that nothing falls between them."""
     gesture: float = 0.9
     """Of a gesture: its context is a conjunction of plain facts, wrong once in ten by their margins."""
 
@@ -73,8 +78,16 @@ def together(ink: Ink, alone: Sequence[FloatArray], drawn: Sequence[int]) -> lis
     """The evidence after a look at the strokes that were drawn beside each: shafts with their heads, sides
     that close an outline, strokes that make a sign. drawn: the strokes that are no gestures."""
     rows = list(alone)
+    step = CONFIDENCE.window - CONFIDENCE.overlap
+    for start in range(0, max(len(drawn) - CONFIDENCE.overlap, 1), step):
+        _look_around(ink, rows, drawn[start : start + CONFIDENCE.window])
+    return rows
+
+
+def _look_around(ink: Ink, rows: list[FloatArray], drawn: Sequence[int]) -> None:
+    """Changes the rows of those of the strokes that mean something together."""
     if len(drawn) < 2:
-        return rows
+        return
     best = {index: STROKE_KINDS[int(np.argmax(rows[index]))] for index in drawn}
     sides = {side for chain in chains(ink, [i for i in drawn if best[i] in SIDES]) for side in chain}
     outlines = [i for i in drawn if best[i] in ("circle", "polygon") or i in sides]
@@ -91,7 +104,6 @@ def together(ink: Ink, alone: Sequence[FloatArray], drawn: Sequence[int]) -> lis
     straight, letters = ([i for i in free if best[i] == kind] for kind in ("wire", "math"))
     for index in signs(ink, straight, letters):
         rows[index] = made("math", CONFIDENCE.sign, rows[index])
-    return rows
 
 
 def made(kind: StrokeKind, belief: float, row: FloatArray) -> FloatArray:

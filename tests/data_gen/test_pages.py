@@ -117,3 +117,14 @@ def test_seeds_and_names_that_cannot_be_are_refused():
         page("pendulum", -1, 0)
     with pytest.raises(ValueError, match="no problem is called"):
         page("lever", 1, 0)
+
+
+def test_clutter_is_nobodys_but_the_scribble_over_a_crossed_out_sign():
+    made = list(pages(12, seed=5, cluttered=True))
+    scribbles = [gesture for one in made for gesture in one.truth.gestures if gesture.kind == "scribble"]
+    assert scribbles
+    for one in made:
+        kinds = one.truth.kinds()
+        assert None in kinds
+        assert all(part.strokes for part in one.truth.components)
+        assert page(one.name, 5, one.index, one.answer, cluttered=True) == one
