@@ -42,7 +42,8 @@ def test_a_net_is_no_better_than_itself_and_one_that_is_always_right_is(people: 
     assert interval(right, wrong, people) == (1.0, 1.0)
 
 
-def test_what_the_log_holds_is_not_run_again(people: People, tmp_path: Path) -> None:
+@pytest.mark.usefixtures("people")
+def test_what_the_log_holds_is_not_run_again(tmp_path: Path) -> None:
     log = tmp_path / "table.jsonl"
     names = (ALL, ablation.AGAIN, *ablation.VARIATIONS)
     log.write_text("".join(json.dumps({"without": name, "right": [1] * 12 + [0]}) + "\n" for name in names))
