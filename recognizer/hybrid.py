@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 from scipy.special import softmax
 
-from recognizer.claims import Claim, Recognizer
+from recognizer.claims import Bonds, Claim, Recognizer
 from recognizer.geometric.recognizer import Geometric, claim, weigh
 from recognizer.learned.recognizer import Learned
 from sketch.ink import FloatArray, Ink
@@ -85,19 +85,25 @@ class Hybrid:
 
     def __init__(self, stack: Stack | None = None) -> None:
         self._stack = load() if stack is None else stack
-        self._net: Recognizer = Learned()
+        self._net = Learned()
         self._geometry: Recognizer = Geometric()
 
     def recognize(self, ink: Ink) -> tuple[Claim, ...]:
         """One claim a stroke."""
+        return self.read(ink)[0]
+
+    def read(self, ink: Ink) -> tuple[tuple[Claim, ...], Bonds]:
+        """One claim a stroke, and which strokes are one thing, which is the net's to say."""
+        net, bonds = self._net.read(ink)
         if not len(ink):
-            return ()
-        net, geometry = self._net.recognize(ink), self._geometry.recognize(ink)
+            return (), bonds
+        geometry = self._geometry.recognize(ink)
         shares = self._stack.shares(scores_of(net), scores_of(alone(ink)), scores_of(geometry))
-        return tuple(
+        claims = tuple(
             Claim(row, first.rejected and first.kind != second.kind)
             for row, first, second in zip(shares, net, geometry, strict=True)
         )
+        return claims, bonds
 
 
 def alone(ink: Ink) -> tuple[Claim, ...]:

@@ -35,6 +35,8 @@ class FeatureRule:
     """Sharpness (0 straight on, 1 back) of the wider turn above which it counts as a corner: 45 degrees."""
     thinnest: float = 1e-3
     """A stroke's spread across its main axis is never less than this of its spread along it, squared."""
+    floor: float = 1e-6
+    """Added to what is divided by and may be nothing. Not less: the exporter takes smaller numbers for zero."""
     directions: int = 18
     """Directions of the support function: 10 degrees apart over a half turn and back."""
     few_points: float = 12.0
@@ -182,16 +184,16 @@ class Features(nn.Module):
         xx, yy, xy = (total * (1 / POINTS) for total in (sum_xx, sum_yy, sum_xy))
         half = torch.sqrt(0.25 * (xx - yy) ** 2 + xy * xy)
         mean = 0.5 * (xx + yy)
-        narrow = torch.sqrt((torch.relu(mean - half) + 1e-5) / (mean + half + 1e-9))
+        narrow = torch.sqrt((torch.relu(mean - half) + 10 * RULE.floor) / (mean + half + RULE.floor))
         # Radius once both spreads are made 1: by the inverse of the covariance, a straight line's too.
-        least = RULE.thinnest * (xx + yy) + 1e-6
+        least = RULE.thinnest * (xx + yy) + RULE.floor
         thick = torch.cat([yy + least, xx + least], dim=1)
         white = (squares * thick[:, :, None]).sum(dim=1) - 2 * xy * product[:, 0]
-        white = white / (thick[:, :1] * thick[:, 1:] - xy * xy + 1e-12)
-        whitened = torch.sqrt(torch.relu(white) + 1e-6)
+        white = white / (thick[:, :1] * thick[:, 1:] - xy * xy)
+        whitened = torch.sqrt(torch.relu(white) + RULE.floor)
         radii = torch.stack([radius[:, 0], whitened], dim=1)
         mean_radii = radii.mean(dim=2, keepdim=True)
-        spread = torch.sqrt(((radii - mean_radii) ** 2).mean(dim=2) + 1e-9) / (mean_radii[:, :, 0] + 1e-9)
+        spread = torch.sqrt(((radii - mean_radii) ** 2).mean(dim=2)) / (mean_radii[:, :, 0] + RULE.floor)
         shadow = middle.transpose(1, 2) @ self.support
         hull = np.pi * (shadow.amax(dim=1) - shadow.amin(dim=1)).mean(dim=1, keepdim=True)
         end = from_start[:, :, -1:]

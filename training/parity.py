@@ -55,4 +55,6 @@ def python_path(
 
 
 def _apart(one: list[np.ndarray[tuple[int, ...], np.dtype[np.float32]]], other: Sequence[object]) -> float:
-    return max(float(np.abs(a - np.asarray(b)).max()) for a, b in zip(one, other, strict=True))
+    """Largest difference; infinity where there is no number on either side."""
+    differences = np.array([np.abs(a - np.asarray(b)).max() for a, b in zip(one, other, strict=True)])
+    return float(differences.max()) if np.isfinite(differences).all() else float("inf")

@@ -158,8 +158,8 @@ def _between(one: Tensor, other: Tensor) -> Tensor:
     """Squared distances between all points of all pairs: (P, N, a, 2), (P, N, b, 2) -> (P, N, a, N, b), as one
     product of matrices, in doubles: |p|² − 2 p·q + |q|² cancels where the points meet."""
     pages, count, here = one.shape[0], one.shape[1], one.shape[2]
-    p, q = one.double().flatten(1, 2), other.double().flatten(1, 2)
-    left = torch.cat([-2.0 * p, (p * p).sum(dim=2, keepdim=True), torch.ones_like(p[..., :1])], dim=2)
-    right = torch.cat([q, torch.ones_like(q[..., :1]), (q * q).sum(dim=2, keepdim=True)], dim=2)
-    squares = torch.relu(left @ right.transpose(1, 2))
-    return squares.reshape(pages, count, here, count, other.shape[2])
+    (px, py), (qx, qy) = (points.double().flatten(1, 2).unbind(dim=2) for points in (one, other))
+    left = torch.stack([-2.0 * px, -2.0 * py, px * px + py * py, torch.ones_like(px)], dim=2)
+    # Laid out as it is needed: onnxruntime-web cannot multiply a transposed matrix of doubles.
+    right = torch.stack([qx, qy, torch.ones_like(qx), qx * qx + qy * qy], dim=1)
+    return torch.relu(left @ right).reshape(pages, count, here, count, other.shape[2])
