@@ -15,6 +15,7 @@ from typing import assert_never
 import numpy as np
 
 from data_gen.hand.curves import ARC_STEP
+from data_gen.hand.names import mask
 from data_gen.pen import draw
 from data_gen.writers import Writer, sample_writer
 from sketch.geometry import diagonal
@@ -58,6 +59,8 @@ class Hand:
 
 
 TABLET = Hand()
+AS_MEANT = mask("retracing", "late")
+"""A stroke that runs back over itself has a corner that is not in its truth; one seen late lacks corners that are."""
 """Digitisers from a mouse or touch screen on: what corner finders have been measured on."""
 SLOW = Hand(rate=(20.0, 60.0))
 """A busy web page: two or three samples on a short leg, and none at the corner itself."""
@@ -138,20 +141,20 @@ def _drawn(
 ) -> list[CornerStroke]:
     names = list(families)
     rngs = [np.random.default_rng([seed, index]) for index in range(count)]
-    writers = [_with_hand(sample_writer(rng), hand) for rng in rngs]
+    writers = [_with_hand(sample_writer(rng, "adult"), hand) for rng in rngs]
     meant = [_placed(families[names[k % len(names)]](rng), rng) for k, rng in enumerate(rngs)]
     return [
-        CornerStroke(draw([path], writer, rng)[0], corners, names[k % len(names)], k)
+        CornerStroke(draw([path], writer, rng, AS_MEANT)[0], corners, names[k % len(names)], k)
         for k, ((path, corners), writer, rng) in enumerate(zip(meant, writers, rngs, strict=True))
     ]
 
 
 def _with_hand(writer: Writer, hand: Hand) -> Writer:
-    """The writer at that device. One that wakes up late leaves corners out of the ink: nobody finds those."""
+    """The writer at that device."""
     low, high = hand.rate
     place = log(writer.rate / RATES[0]) / log(RATES[1] / RATES[0])
     rate = low * (high / low) ** place
-    return replace(writer, rate=rate, late=0.0, hooks=writer.hooks if hand.hooks else 0.0)
+    return replace(writer, rate=rate, hooks=writer.hooks if hand.hooks else 0.0)
 
 
 def _placed(steps: list[Step], rng: np.random.Generator) -> tuple[FloatArray, FloatArray]:

@@ -85,7 +85,8 @@ def test_told_the_truth_shapes_lie_where_they_were_meant(name: str) -> None:
         ends = [np.asarray(x) for x in _places(meant)]
         seen = [np.asarray(x) for x in _places(where[frozenset(meant.strokes)])]
         for place in ends:
-            assert min(float(np.hypot(*(place - other))) for other in seen) < 0.06 * (high - low)
+            # A twelfth: children are among the writers, and their corners stray that far.
+            assert min(float(np.hypot(*(place - other))) for other in seen) < 0.08 * (high - low)
 
 
 def _places(component) -> list:

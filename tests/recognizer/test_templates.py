@@ -95,15 +95,19 @@ def test_a_quarter_turn_changes_distances_where_turns_matter(matcher, rememberin
 
 @pytest.mark.parametrize("matcher", SENSELESS)
 def test_order_and_sense_of_strokes_change_no_kind_where_the_paper_says_so(matcher):
-    parts = [in_parts(ink) for ink in DRAWN[:12]]
-    remembered = matcher.of(parts, LABELS[:12])
+    # No springs: the loops of a coil lie closer than the points that stand for it, and any shift reorders them.
+    mix = {"circle": 0.3, "polygon": 0.3, "arrow": 0.4}
+    items = generate(12, 77, mix=mix)
+    parts = [in_parts(Ink((item.stroke,))) for item in items]
+    kinds = np.array([sorted(mix).index(item.kind) for item in items])
+    remembered = matcher.of(parts, kinds)
     for change in (
         lambda ink: Ink(ink.strokes[::-1]),
         lambda ink: mapped(ink, lambda points: points[::-1]),
         lambda ink: Ink((ink[1], *mapped(Ink((ink[0],)), lambda points: points[::-1]))),
     ):
         changed = remembered.nearest([change(ink) for ink in parts])
-        assert (changed.argmin(axis=1) == LABELS[:12]).all()
+        assert (changed.argmin(axis=1) == kinds).all()
 
 
 @pytest.mark.parametrize("matcher", [m for m in MATCHERS if m not in SENSELESS])
