@@ -13,8 +13,8 @@ from itertools import cycle
 import numpy as np
 
 from data_gen import drawing, pen
-from data_gen.families import FAMILIES
 from data_gen.pages import Page, pages
+from data_gen.strokes import Recipe, meant
 from sketch.ink import FloatArray, Ink, Stroke
 from sketch.page import GestureKind
 from sketch.shapes import Circle, Polygon
@@ -35,6 +35,8 @@ class GestureRule:
 
 
 RULE = GestureRule()
+IN_ONE = Recipe(without=("several_strokes", "broken"))
+"""Gestures are made without lifting the pen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +81,7 @@ def gestured(page: Page, kind: GestureKind, rng: np.random.Generator) -> Gesture
 
 def _about(points: FloatArray, kind: GestureKind, rng: np.random.Generator) -> FloatArray:
     """A lasso about the points, or a scribble over them."""
-    path = FAMILIES[kind](rng)
+    (path,), _ = meant(kind, int(rng.integers(2**31)), recipe=IN_ONE)
     low, high = points.min(axis=0), points.max(axis=0)
     middle, extent = 0.5 * (low + high), high - low + 2 * RULE.margin
     path = path - 0.5 * (path.min(axis=0) + path.max(axis=0))
