@@ -19,6 +19,7 @@ import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
 
 from data_gen.strokes import doodles, items
 from sketch.files import jsonl
@@ -62,7 +63,7 @@ def sheet(name: str, people: Sequence[Ink], made: Sequence[Ink], out: Path) -> P
     return path
 
 
-def drawn(spot: plt.Axes, ink: Ink) -> None:
+def drawn(spot: Axes, ink: Ink) -> None:
     for number, stroke in enumerate(ink):
         x, y = stroke.points.T
         spot.plot(x, y, "-", linewidth=0.8, color="tab:orange" if number else "tab:blue")

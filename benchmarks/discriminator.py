@@ -129,7 +129,7 @@ def told_apart(trial: Trial, trees: int, seed: int) -> tuple[float, FloatArray]:
     for grown, tried in GroupKFold(PARTS).split(trial.features, trial.real, trial.groups):
         forest = RandomForestClassifier(trees, min_samples_leaf=2, random_state=seed)
         forest.fit(trial.features[grown], trial.real[grown], trial.weights[grown])
-        scores[tried] = forest.predict_proba(trial.features[tried])[:, 1]
+        scores[tried] = np.asarray(forest.predict_proba(trial.features[tried]))[:, 1]
         weights += forest.feature_importances_ / PARTS
     return float(roc_auc_score(trial.real, scores, sample_weight=trial.weights)), weights
 

@@ -14,8 +14,8 @@ from typing import assert_never
 
 import numpy as np
 
-from data_gen.ideals import ARC_STEP
-from data_gen.pen import draw_batch, strokes_from
+from data_gen.hand.curves import ARC_STEP
+from data_gen.pen import draw
 from data_gen.writers import Writer, sample_writer
 from sketch.geometry import diagonal
 from sketch.ink import FloatArray, Stroke
@@ -140,10 +140,9 @@ def _drawn(
     rngs = [np.random.default_rng([seed, index]) for index in range(count)]
     writers = [_with_hand(sample_writer(rng), hand) for rng in rngs]
     meant = [_placed(families[names[k % len(names)]](rng), rng) for k, rng in enumerate(rngs)]
-    strokes = strokes_from(draw_batch([path for path, _ in meant], writers, rngs))
     return [
-        CornerStroke(stroke, corners, names[k % len(names)], k)
-        for k, (stroke, (_, corners)) in enumerate(zip(strokes, meant, strict=True))
+        CornerStroke(draw([path], writer, rng)[0], corners, names[k % len(names)], k)
+        for k, ((path, corners), writer, rng) in enumerate(zip(meant, writers, rngs, strict=True))
     ]
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from itertools import cycle
 
 import numpy as np
 
@@ -35,6 +34,7 @@ class GestureRule:
 
 
 RULE = GestureRule()
+IN_TURN: tuple[GestureKind, ...] = ("lasso", "scribble", "tap")
 IN_ONE = Recipe(without=("several_strokes", "broken"))
 """Gestures are made without lifting the pen."""
 
@@ -53,8 +53,8 @@ class GesturedPage:
 
 def gestured_pages(count: int, seed: int) -> Iterator[GesturedPage]:
     """`count` pages, each with a lasso, a scribble or a tap more, in turn."""
-    kinds: Iterator[GestureKind] = cycle(("lasso", "scribble", "tap"))
-    for page, kind in zip(pages(count, seed), kinds, strict=False):
+    for number, page in enumerate(pages(count, seed)):
+        kind = IN_TURN[number % len(IN_TURN)]
         yield gestured(page, kind, np.random.default_rng([seed, page.index, 1]))
 
 

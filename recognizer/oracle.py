@@ -3,13 +3,18 @@ recognition, so that recognition error and back-end error are never mixed up."""
 
 from __future__ import annotations
 
-from recognizer.claims import Claim, claim_for
+from itertools import combinations
+
+import numpy as np
+
+from recognizer.claims import Bonds, Claim, claim_for
 from sketch.ink import Ink
 from sketch.page import STROKE_KINDS, Sketch, StrokeKind
 
 
 class Oracle:
-    """Claims what the truth says of each stroke; rejects the strokes that it gives to nobody.
+    """Claims what the truth says of each stroke, and which strokes are one component; rejects the strokes that it gives
+    to nobody.
 
     It knows the truth's own ink alone: recognize raises ValueError for any other.
     """
@@ -20,6 +25,9 @@ class Oracle:
     def __init__(self, truth: Sketch) -> None:
         self._ink = truth.ink
         self._kinds = truth.kinds()
+        parts = [sorted(component.strokes) for component in truth.components]
+        pairs = sorted(pair for part in parts for pair in combinations(part, 2))
+        self._bonds = Bonds(np.array(pairs, dtype=np.int64).reshape(-1, 2), np.ones(len(pairs)))
 
     def recognize(self, ink: Ink) -> tuple[Claim, ...]:
         """Certain claims, one a stroke."""
@@ -29,3 +37,7 @@ class Oracle:
             claim_for("math", 1.0, rejected=True) if kind is None else claim_for(kind, 1.0)
             for kind in self._kinds
         )
+
+    def read(self, ink: Ink) -> tuple[tuple[Claim, ...], Bonds]:
+        """The same, and the strokes that are one component."""
+        return self.recognize(ink), self._bonds

@@ -41,7 +41,11 @@ OTHERS = frozenset({"0", "o", "O", r"\Delta", ".", r"\cdot", r"\ldots"})
 def pools() -> Pools:
     """The tables that the kernels pick from; frequent symbols stand in them several times."""
     return Pools(
-        *(_table(_singles(pool)) for pool in ("symbols", "marks", "round letters", "all")), _table(_whole())
+        _table(_singles("symbols")),
+        _table(_singles("marks")),
+        _table(_singles("round letters")),
+        _table(_singles("all")),
+        _table(_whole()),
     )
 
 
