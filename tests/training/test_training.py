@@ -77,7 +77,7 @@ def test_the_same_seed_gives_the_same_weights_also_after_a_stop(corpus: Corpus, 
 
 
 def test_training_learns(corpus: Corpus) -> None:
-    net = fit(corpus, seed=5, rule=FitRule(epochs=8, both=2, batch=64), size=SMALL)
+    net = fit(corpus, seed=5, rule=FitRule(epochs=30, both=2, batch=64), size=SMALL)
     said = say(net, corpus)
     known = said.kind >= 0
     assert (said.logits.argmax(axis=1) == said.kind)[known].mean() > 0.6, (
