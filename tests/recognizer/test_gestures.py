@@ -66,7 +66,7 @@ def test_a_spring_that_hangs_on_a_ball_is_no_scribble(teeth: int) -> None:
 def test_gestures_on_pages_are_found_as_often_as_was_measured() -> None:
     """300 pages of another seed: benchmarks/results/gestures.txt."""
     table = confusion("geometric", 45, 7)
-    assert share(table, True) >= 0.93
+    assert share(table, True) >= 0.88
     assert share(table, False) <= 0.005
 
 
