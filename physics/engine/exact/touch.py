@@ -118,27 +118,44 @@ def separation(w: Any, pos: FloatArray, i: int, j: int) -> float:
 
 @part
 def newcomers(w: Any, m: Any, i: int, j: int, p: int) -> float:
-    """The gap between two blocks that touch already, but for the corners that do: the least distance by
-    which another corner of either is outside the other, m. Discs touch at one place only: infinite."""
+    """The gap between two blocks that touch already, but for the corners that do, m: the least distance by which
+    another corner of either is outside the other, or by which the best face keeps them off where that is less: edges
+    may cross though no corner is inside, where one slides along a floor under a sharp tip. Discs touch at one place
+    only: infinite."""
     if counts(w)[i] == 0 or counts(w)[j] == 0:
         return 1e300
-    least = 1e300
+    least, widest_of_both = 1e300, -1e300
     pos = poses(m)
     for k in range(m.rows):
         if row_of(m, k).source == p and row_of(m, k).kind == FACE:
             refresh(row_of(m, k), pos, velocities(m))
-    for one, other in ((i, j), (j, i)):
+    for side in range(2):
+        one, other = (i, j) if side == 0 else (j, i)
+        for q in range(firsts(w)[one], firsts(w)[one] + counts(w)[one]):
+            nx, ny = turned(pos[one, 2], normals(w)[q, 0], normals(w)[q, 1])
+            ax, ay = corner(w, pos, one, q)
+            kept_off = 1e300
+            for v in range(firsts(w)[other], firsts(w)[other] + counts(w)[other]):
+                px, py = corner(w, pos, other, v)
+                if not _touches(m, p, px, py):
+                    kept_off = min(kept_off, nx * (px - ax) + ny * (py - ay))
+            widest_of_both = max(widest_of_both, kept_off)
         for v in range(firsts(w)[other], firsts(w)[other] + counts(w)[other]):
-            known = False
             px, py = corner(w, pos, other, v)
-            for k in range(m.rows):
-                row = row_of(m, k)
-                if row.source == p and row.kind == FACE and hypot(row.px - px, row.py - py) < 1e-5:
-                    known = True
-            if not known:
+            if not _touches(m, p, px, py):
                 x, y = within(pos, one, px, py)
                 least = min(least, outside(w, one, x, y)[0])
-    return least
+    return min(least, widest_of_both)
+
+
+@part
+def _touches(m: Any, p: int, x: float, y: float) -> bool:
+    """Whether a row of the pair acts at a point of the world, as last refreshed."""
+    for k in range(m.rows):
+        row = row_of(m, k)
+        if row.source == p and row.kind == FACE and hypot(row.px - x, row.py - y) < 1e-5:
+            return True
+    return False
 
 
 @part
