@@ -16,6 +16,10 @@ from recognizer.classical.paths import Paths, paths_of, unit_sized
 from sketch.ink import FloatArray, Ink, Stroke
 
 
+FOREVER = 1e12
+"""Seconds: no clock that tells more tells the time."""
+
+
 @dataclass(frozen=True, slots=True)
 class RubineRule:
     """Numbers of the features."""
@@ -98,6 +102,7 @@ def _time(drawing: Ink, rule: RubineRule) -> tuple[float, float]:
     if any(stroke.times is None for stroke in drawing):
         return 0.0, 0.0
     times = np.concatenate([stroke.times for stroke in drawing if stroke.times is not None])
+    times = np.clip(times, -FOREVER, FOREVER)
     points = drawing.points_of(range(len(drawing)))
     kept = _kept(points, rule.jiggle)
     lasted = np.diff(times[kept])
