@@ -15,7 +15,6 @@ import numpy as np
 from recognizer.classical.paths import Paths, paths_of, unit_sized
 from sketch.ink import FloatArray, Ink, Stroke
 
-
 FOREVER = 1e12
 """Seconds: no clock that tells more tells the time."""
 
