@@ -152,7 +152,7 @@ def _blocks(one: Outline, other: Outline) -> tuple[float, Point]:
     if best > FLUSH and not over:
         x, y = _nearest(one, other)
         distance = hypot(x, y)
-        if distance > best * (1 + 1e-9) + FLUSH:
+        if distance > best * (1 + 1e-12) + FLUSH:
             return distance, (x / distance, y / distance)
     return best, direction
 

@@ -124,7 +124,8 @@ def arc_errors(path: FloatArray, rule: CornerRule = CORNERS) -> FloatArray:
     sx, sy, sz = mean = sums[:3] / number
     xx, xy, yy = sums[3] - sx * sums[0], sums[4] - sx * sums[1], sums[5] - sy * sums[1]
     xz, yz, zz = sums[6] - sx * sums[2], sums[7] - sy * sums[2], sums[8] - sz * sums[2]
-    with np.errstate(divide="ignore", invalid="ignore"):
+    # Points that all but lie on a line have a circle of any size: the determinant tells, whatever else overflows.
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         determinant = xx * yy - xy * xy
         a, b = (xz * yy - yz * xy) / determinant, (yz * xx - xz * xy) / determinant  # twice the centre
         square = mean[2] - a * mean[0] - b * mean[1] + 0.25 * (a * a + b * b)  # of the radius

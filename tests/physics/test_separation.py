@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import cos, hypot, pi, sin
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from shapely import Polygon as Region
 from shapely.affinity import translate
@@ -26,7 +26,15 @@ def blocks(draw: st.DrawFn) -> Polygon:
     )
 
 
+HARDLY_BESIDE = (
+    Polygon([(-4.11392876, -2.34175828), (9.41699677, -8.73402038), (-5.30306801, 12.57577866)]),
+    Polygon([(-31.7, 276.1), (-8.5, 276.4), (23.2, 298.3), (31.7, 319.9), (8.5, 319.6), (-23.2, 297.7)]),
+)
+"""A corner that lies just beside the face that it seems to be nearest to."""
+
+
 @given(blocks(), blocks())
+@example(*HARDLY_BESIDE)
 def test_the_gap_of_two_blocks_is_their_distance_and_no_less_than_that_of_their_boxes(
     one: Polygon, other: Polygon
 ) -> None:

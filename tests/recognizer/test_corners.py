@@ -6,7 +6,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from corners import Finder, all_or_nothing
@@ -79,6 +79,7 @@ def test_a_stroke_drawn_backwards_has_the_same_corners(seed: int) -> None:
 
 
 @given(st.floats(0, 6.3), st.integers(2, 200))
+@example(4.849468969916818e-156, 3)
 @settings(max_examples=30, deadline=None)
 def test_a_straight_line_has_no_corner(angle: float, count: int) -> None:
     line = np.linspace(0, 100, count)[:, None] * np.array([np.cos(angle), np.sin(angle)])
