@@ -75,10 +75,14 @@ class Corpus:
 
 
 def make_corpus(
-    plan: Plan, seed: int, jobs: int, progress: Callable[[float], None] = lambda _share: None
+    plan: Plan,
+    seed: int,
+    jobs: int,
+    progress: Callable[[float], None] = lambda _share: None,
+    shard: int = RULE.shard,
 ) -> Corpus:
     """The plan's drawings as arrays; `progress` is told the share done so far."""
-    parts = max(1, round(plan.total / RULE.shard))
+    parts = max(1, round(plan.total / shard))
     tasks = (delayed(_shard)(plan, seed, part, parts) for part in range(parts))
     made: list[Corpus] = []
     for corpus in cast("Iterable[Corpus]", Parallel(n_jobs=jobs, return_as="generator")(tasks)):

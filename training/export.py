@@ -7,6 +7,7 @@ what lies between strokes.
 
 from __future__ import annotations
 
+import tempfile
 import warnings
 from pathlib import Path
 
@@ -19,6 +20,8 @@ from training.reader import RawReader
 
 INPUTS = ("points", "times", "stroke", "page", "timed")
 OUTPUTS = ("kinds", "strange", "together")
+OPSET = 18
+"""The newest that the exporter knows well; onnxruntime and onnxruntime-web know far newer ones."""
 BETWEEN = ("encoded", "paths", "moments", "company")
 
 
@@ -69,31 +72,41 @@ def assembled(reader: RawReader) -> ModelProto:
 
 def _exported(module: nn.Module, example: dict[str, Tensor], outputs: tuple[str, ...]) -> ModelProto:
     """A part as a model of its own: strokes and points may be any number."""
-    points, strokes = torch.export.Dim("points", min=2), torch.export.Dim("strokes", min=2)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # the exporter's own deprecation chatter
-        program = torch.onnx.export(
+    axes = {name: {0: "points" if name in ("points", "times", "stroke") else "strokes"} for name in example}
+    axes |= {name: {0: "strokes", 1: "strokes"} if name == "together" else {0: "strokes"} for name in OUTPUTS}
+    with warnings.catch_warnings(), tempfile.TemporaryDirectory() as folder:
+        # Branches by Python values would be frozen: a reader has none, and parity is tested. The newer exporter
+        # writes the same operators, but thinks a hundred times as long about them.
+        warnings.simplefilter("ignore")
+        file = Path(folder) / "part.onnx"
+        torch.onnx.export(
             module.eval(),
             tuple(example.values()),
+            file,
             input_names=list(example),
             output_names=list(outputs),
-            dynamic_shapes={
-                name: {0: points if name in ("points", "times", "stroke") else strokes} for name in example
-            },
-            external_data=False,
-            dynamo=True,
-            verbose=False,
+            dynamic_axes={name: axes[name] for name in (*example, *outputs) if name in axes},
+            opset_version=OPSET,
+            dynamo=False,
         )
-    assert program is not None
-    model = onnx.load_from_string(program.model_proto.SerializeToString())
-    # The exporter notes where each operator came from, machine paths included: not for shipping.
-    for node in model.graph.node:
-        del node.metadata_props[:]
-        node.doc_string = ""
-    for value in [*model.graph.input, *model.graph.output]:
-        del value.metadata_props[:]
-    del model.graph.value_info[:]
+        model = onnx.load(file)
+    _settled(model.graph)
     return model
+
+
+def _settled(graph: GraphProto) -> None:
+    """Stores numbers as numbers, not as operators that yield them, and leaves out what is for debugging: machine
+    paths are not for shipping."""
+    operators = list(graph.node)
+    del graph.node[:], graph.value_info[:]
+    for node in operators:
+        node.doc_string = ""
+        if node.op_type == "Constant":
+            (value,) = node.attribute
+            graph.initializer.append(value.t)
+            graph.initializer[-1].name = node.output[0]
+        else:
+            graph.node.append(node)
 
 
 def _prefixed(graph: GraphProto, prefix: str, kept: tuple[str, ...]) -> None:

@@ -35,9 +35,15 @@ def corpus() -> Corpus:
     return make_corpus(PLAN, seed=3, jobs=1)
 
 
+@pytest.fixture(scope="module")
+def fitted(corpus: Corpus) -> PageNet:
+    torch.set_num_threads(1)
+    return fit(corpus, seed=5, rule=QUICK, size=SMALL)
+
+
 def test_a_corpus_is_remade_from_its_seed_whatever_the_number_of_processes() -> None:
-    plan = Plan(alone=10_000, strewn=10, pages=2, doodles=10)
-    one, other = make_corpus(plan, seed=3, jobs=1), make_corpus(plan, seed=3, jobs=2)
+    plan, shard = Plan(alone=80, strewn=8, pages=4, doodles=8), 25
+    one, other = (make_corpus(plan, seed=3, jobs=jobs, shard=shard) for jobs in (1, 2))
     for name in ("paths", "distinct", "span", "timed", "kind", "thing", "first"):
         assert np.array_equal(getattr(one, name), getattr(other, name)), name
 
@@ -65,19 +71,20 @@ def test_features_backwards_are_those_of_the_stroke_drawn_backwards(corpus: Corp
     assert torch.allclose(whole, same, atol=1e-4)
 
 
-def test_the_same_seed_gives_the_same_weights_also_after_a_stop(corpus: Corpus, tmp_path: Path) -> None:
-    torch.set_num_threads(1)
-    whole, again = (fit(corpus, seed=5, rule=QUICK, size=SMALL) for _ in range(2))
+def test_the_same_seed_gives_the_same_weights_also_after_a_stop(
+    corpus: Corpus, fitted: PageNet, tmp_path: Path
+) -> None:
+    again = fit(corpus, seed=5, rule=QUICK, size=SMALL)
     file = tmp_path / "checkpoint.pt"
     fit(corpus, seed=5, rule=QUICK, size=SMALL, checkpoint=file, until=1)
     resumed = fit(corpus, seed=5, rule=QUICK, size=SMALL, checkpoint=file)
-    for name, value in whole.state_dict().items():
+    for name, value in fitted.state_dict().items():
         assert torch.equal(value, again.state_dict()[name]), name
         assert torch.equal(value, resumed.state_dict()[name]), name
 
 
 def test_training_learns(corpus: Corpus) -> None:
-    net = fit(corpus, seed=5, rule=FitRule(epochs=30, both=2, batch=64), size=SMALL)
+    net = fit(corpus, seed=5, rule=FitRule(epochs=15, both=2, batch=64), size=SMALL)
     said = say(net, corpus)
     known = said.kind >= 0
     assert (said.logits.argmax(axis=1) == said.kind)[known].mean() > 0.6, (
@@ -94,8 +101,8 @@ def test_temperature_recovers_the_heat_that_was_put_in() -> None:
 
 
 @pytest.fixture(scope="module")
-def exported(corpus: Corpus, tmp_path_factory: pytest.TempPathFactory) -> tuple[RawReader, Path]:
-    reader = RawReader(fit(corpus, seed=5, rule=QUICK, size=SMALL), 1.3).eval()
+def exported(fitted: PageNet, tmp_path_factory: pytest.TempPathFactory) -> tuple[RawReader, Path]:
+    reader = RawReader(fitted, 1.3).eval()
     file = tmp_path_factory.mktemp("onnx") / "net.onnx"
     export(reader, file, {"inklined": "{}"})
     return reader, file
