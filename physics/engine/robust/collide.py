@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from physics.engine.robust.groups import join, root
 from physics.engine.robust.manifold import (
     BOUNCE,
     GAIN,
@@ -36,6 +37,7 @@ from physics.engine.robust.manifold import (
 from physics.engine.robust.memory import (
     ACTIVE,
     ASIDE,
+    BLOW,
     CLOSING,
     CONTACTS,
     GIVES,
@@ -70,7 +72,8 @@ IntArray = NDArray[np.int64]
 FAST = 1e-4
 """m/s: what closes more slowly, over what gravity makes in a substep, lands without an impact."""
 ROUNDS = 8
-"""Of impacts in consequence of one another within a substep; after them all that still close are dead."""
+"""Of impacts in consequence of one another within a substep; after them, for as many again, all that still close
+are dead, together with what was struck before."""
 SWEEPS = 60.0
 """Rounds of sweeps in one."""
 TAUT = 2e-6
@@ -107,7 +110,7 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
         real[HIT, k] = 0.0
     rounds = 0
     loss = 0.0
-    while rounds <= ROUNDS:
+    while rounds <= 2 * ROUNDS:
         struck = False
         for k in range(contacts):
             pull = opening(real, whole, k, acc)
@@ -116,7 +119,7 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
                 gap += opening(real, whole, k, shift)
             rate, when = approach(gap, opening(real, whole, k, vel), pull, lag, h)
             whole[LIVE, k] = 0
-            if rate < -FAST - h * abs(real[NX, k] * gx + real[NY, k] * gy):
+            if rate < -FAST - h * max(abs(real[NX, k] * gx + real[NY, k] * gy), abs(pull)):
                 if not struck and rounds == 0:
                     _begin(m)
                 struck = True
@@ -126,7 +129,7 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
         for k in range(rows):
             row = row_of(m, k)
             rate = rate_of(jacobian, ends, k, vel)
-            bars[k, GOAL], bars[k, CLOSING], bars[k, SPURT], bars[k, WHEN] = rate, rate, 0.0, h
+            bars[k, GOAL], bars[k, BLOW], bars[k, SPURT], bars[k, WHEN] = rate, 0.0, 0.0, h
             if row.kind == CORD and bars[k, ACTIVE] == 1.0:
                 # A slack wire bears nothing.
                 bars[k, GOAL] = min(rate, 0.0) if row.gap <= TAUT else -np.inf
@@ -140,13 +143,18 @@ def strike(w: Any, m: Any, h: float, lag: float) -> float:
                         _begin(m)
                     struck = True
                     bars[k, GOAL], bars[k, SPURT] = -(lag + when) * pull, (lag + when) * pull
-                    bars[k, WHEN] = when
+                    bars[k, WHEN], bars[k, BLOW] = when, 1.0
         if not struck:
             break
+        if rounds >= ROUNDS:
+            # What was struck before takes part, for a dead blow is no blow to what it is pressed against.
+            for k in range(contacts):
+                if whole[LIVE, k] == 0 and real[HIT, k] > 0.0:
+                    whole[LIVE, k], real[TAU, k] = 1, h
         _agree(w, m, h)
         _aim(m, inverses(w), lag)
         if rows > 0:
-            bring_up_rows(w, m, place_of(m), vel)
+            _aim_rows(w, m)
         loss += _solve(w, m, rounds < ROUNDS)
         bring_up(w, m)
         rounds += 1
@@ -173,65 +181,42 @@ def _begin(m: Any) -> None:
 @part
 def _agree(w: Any, m: Any, h: float) -> None:
     """All that is struck together is struck at one moment, the first of its blows: what is struck too soon enters
-    nothing, and a blow runs through wires and pins at once. Poses at that moment go to `place`."""
-    real, whole, bars, ends, since = real_of(m), whole_of(m), bars_of(m), ends_of(m), when_of(m)
+    nothing, and a blow runs through wires and pins at once. It may be before the last blow, for the ways are
+    straight, and to go back along one changes neither momentum nor its moment. Poses at that moment go to `place`."""
+    real, whole, bars, ends = real_of(m), whole_of(m), bars_of(m), ends_of(m)
     pos, vel, shift, place, inverse = pos_of(m), vel_of(m), shift_of(m), place_of(m), inverses(w)
     contacts, bodies = tally_of(m)[CONTACTS], len(pos)
-    group, first, last = np.arange(bodies), np.full(bodies, h), np.zeros(bodies)
+    group, first = np.arange(bodies), np.full(bodies, h)
     for k in range(contacts):
         if whole[LIVE, k] == 1:
-            _join(group, inverse, whole[ONE, k], whole[OTHER, k])
+            join(group, inverse, whole[ONE, k], whole[OTHER, k])
     for k in range(m.rows):
         if bars[k, ACTIVE] == 1.0 and bars[k, GOAL] > -np.inf:
-            _join(group, inverse, ends[k, 0], ends[k, 1])
+            join(group, inverse, ends[k, 0], ends[k, 1])
     for k in range(contacts):
         if whole[LIVE, k] == 1:
             for end in range(2):
-                at = _root(group, whole[ONE + end, k])
+                at = root(group, whole[ONE + end, k])
                 first[at] = min(first[at], real[TAU, k])
     for k in range(m.rows):
         for end in range(2):
-            at = _root(group, ends[k, end])
+            at = root(group, ends[k, end])
             first[at] = min(first[at], bars[k, WHEN])
-    for i in range(bodies):
-        at = _root(group, i)
-        if inverse[i, 0] > 0.0 or inverse[i, 2] > 0.0:
-            last[at] = max(last[at], since[i])
     for k in range(contacts):
         if whole[LIVE, k] == 1:
-            real[TAU, k] = _moment(group, inverse, first, last, whole[ONE, k], whole[OTHER, k])
+            real[TAU, k] = _moment(group, inverse, first, whole[ONE, k], whole[OTHER, k])
     for k in range(m.rows):
-        bars[k, WHEN] = _moment(group, inverse, first, last, ends[k, 0], ends[k, 1])
+        bars[k, WHEN] = _moment(group, inverse, first, ends[k, 0], ends[k, 1])
     for i in range(bodies):
-        at = _root(group, i)
-        when = max(first[at], last[at])
+        when = first[root(group, i)]
         for q in range(3):
             place[i, q] = pos[i, q] + shift[i, q] + when * vel[i, q]
 
 
 @part
-def _root(group: IntArray, i: int) -> int:
-    while group[i] != i:
-        group[i] = group[group[i]]
-        i = group[i]
-    return i
-
-
-@part
-def _join(group: IntArray, inverse: FloatArray, i: int, j: int) -> None:
-    """Of two bodies that can both move."""
-    if (inverse[i, 0] > 0.0 or inverse[i, 2] > 0.0) and (inverse[j, 0] > 0.0 or inverse[j, 2] > 0.0):
-        one, other = _root(group, i), _root(group, j)
-        group[max(one, other)] = min(one, other)
-
-
-@part
-def _moment(
-    group: IntArray, inverse: FloatArray, first: FloatArray, last: FloatArray, i: int, j: int
-) -> float:
+def _moment(group: IntArray, inverse: FloatArray, first: FloatArray, i: int, j: int) -> float:
     """When bodies i and j are struck: what is fixed says nothing."""
-    at = _root(group, i if inverse[i, 0] > 0.0 or inverse[i, 2] > 0.0 else j)
-    return max(first[at], last[at])
+    return first[root(group, i if inverse[i, 0] > 0.0 or inverse[i, 2] > 0.0 else j)]
 
 
 @part
@@ -247,6 +232,17 @@ def _aim(m: Any, inverse: FloatArray, lag: float) -> None:
             renew(k, place, turns, inverse, real, whole)
             real[GAIN, k] = (lag + real[TAU, k]) * opening(real, whole, k, acc)
             real[RATE, k] = opening(real, whole, k, vel) + real[GAIN, k]
+
+
+@part
+def _aim_rows(w: Any, m: Any) -> None:
+    """The same for wires and pins: what is not struck itself keeps the rate that it has there."""
+    vel, bars, jacobian, ends = vel_of(m), bars_of(m), jacobian_of(m), ends_of(m)
+    bring_up_rows(w, m, place_of(m), vel)
+    for k in range(m.rows):
+        bars[k, CLOSING] = rate_of(jacobian, ends, k, vel)
+        if bars[k, BLOW] == 0.0 and bars[k, GOAL] > -np.inf:
+            bars[k, GOAL] = min(bars[k, CLOSING], 0.0) if row_of(m, k).kind == CORD else bars[k, CLOSING]
 
 
 @part
@@ -286,13 +282,13 @@ def _solve(w: Any, m: Any, lively: bool) -> float:
         if whole[LIVE, k] == 1 and real[PN, k] > 0.0:
             i, j, when = whole[ONE, k], whole[OTHER, k], real[TAU, k]
             press(real, whole, inverse, k, -when * real[PN, k], -when * real[PT, k], shift)
-            since[i], since[j] = max(since[i], when), max(since[j], when)
+            since[i], since[j] = min(since[i], when), min(since[j], when)
     for k in range(rows):
         if bars[k, IMPULSE] != 0.0:
             rate = rate_of(jacobian, ends, k, vel)
             loss -= bars[k, IMPULSE] * (0.5 * (bars[k, CLOSING] + rate) + bars[k, SPURT])
             for end in range(2):
-                since[ends[k, end]] = max(since[ends[k, end]], bars[k, WHEN])
+                since[ends[k, end]] = min(since[ends[k, end]], bars[k, WHEN])
             haul(jacobian, ends, inverse, k, -bars[k, WHEN] * bars[k, IMPULSE], shift)
             bars[k, GIVES] = max(bars[k, GIVES], bars[k, IMPULSE])
     return loss

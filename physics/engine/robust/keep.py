@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from physics.engine.robust.crowd import Record
 from physics.engine.robust.manifold import HIT, NX, NY, ONE, OTHER, PAIR, PN, PT, PX, PY
 from physics.engine.robust.memory import (
+    ACTIVE,
     CONTACTS,
     FORCE,
     IMPULSE,
@@ -18,6 +19,7 @@ from physics.engine.robust.memory import (
     acc_of,
     bars_of,
     before_of,
+    ends_of,
     ledger_of,
     now_of,
     pos_of,
@@ -27,7 +29,7 @@ from physics.engine.robust.memory import (
     when_of,
     whole_of,
 )
-from physics.engine.tables import link_of, pair_of
+from physics.engine.tables import inverses, link_of, pair_of
 from physics.jit import part
 from sketch.ink import FloatArray
 
@@ -35,34 +37,48 @@ IntArray = NDArray[np.int64]
 
 
 @part
-def mark(m: Any, record: Record, since: float) -> None:
-    """Keeps when bodies were struck. since: the last record, s."""
+def mark(w: Any, m: Any, record: Record, since: float) -> None:
+    """Keeps when bodies were first struck. since: the last record, s."""
     start, before, when, at = start_of(m), before_of(m), when_of(m), tally_of(m)[RECORDS] - 1
-    real, whole, contacts = real_of(m), whole_of(m), tally_of(m)[CONTACTS]
+    real, whole, bars, ends, inverse = real_of(m), whole_of(m), bars_of(m), ends_of(m), inverses(w)
     uneven = True
     while uneven:
         # What one blow after another joined is shown struck at once, for momentum goes from one to another.
         uneven = False
-        for k in range(contacts):
-            i, j = whole[ONE, k], whole[OTHER, k]
-            if real[HIT, k] > 0.0 and when[i] != when[j]:
-                when[i] = when[j] = max(when[i], when[j])
-                uneven = True
+        for k in range(tally_of(m)[CONTACTS]):
+            if real[HIT, k] > 0.0:
+                uneven = _level(when, inverse, whole[ONE, k], whole[OTHER, k]) or uneven
+        for k in range(m.rows):
+            if bars[k, ACTIVE] == 1.0:
+                uneven = _level(when, inverse, ends[k, 0], ends[k, 1]) or uneven
     earlier = False
     for i in range(len(start)):
         earlier = earlier or record.struck[at, i] >= 0.0
     for i in range(len(start)):
         if before[i, 0] != start[i, 0] or before[i, 1] != start[i, 1] or before[i, 2] != start[i, 2]:
-            record.struck[at, i] = since + when[i]
+            if record.struck[at, i] < 0.0:
+                record.struck[at, i] = since + (when[i] if when[i] < np.inf else 0.0)
             for q in range(3):
                 record.jump[at, i, q] += before[i, q] - start[i, q]
     if earlier:
-        latest = 0.0
-        for i in range(len(start)):
-            latest = max(latest, record.struck[at, i])
+        first = np.inf
         for i in range(len(start)):
             if record.struck[at, i] >= 0.0:
-                record.struck[at, i] = latest
+                first = min(first, record.struck[at, i])
+        for i in range(len(start)):
+            if record.struck[at, i] >= 0.0:
+                record.struck[at, i] = first
+
+
+@part
+def _level(when: FloatArray, inverse: FloatArray, i: int, j: int) -> bool:
+    """Brings the moments of two bodies that were both struck, and can move, to the first; whether they differed."""
+    first = min(when[i], when[j])
+    last = max(when[i], when[j])
+    if first == last or last == np.inf or inverse[i, 0] == 0.0 or inverse[j, 0] == 0.0:
+        return False
+    when[i], when[j] = first, first
+    return True
 
 
 @part

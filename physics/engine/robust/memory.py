@@ -19,10 +19,10 @@ TALLY = 11
 BUCKLED, GIVES, LEAST, MOST, GOAL, HEFT = 0, 1, 2, 3, 4, 5
 """Columns of `bars`, one line for each row of `rows`: whether its wire hangs slack; the greatest impulse of an
 impact in this substep, N s; bounds of its impulse, N s; the rate wanted, m/s; the mass it meets, kg."""
-IMPULSE, WHEN, ASIDE, ACTIVE, OLD, WAY, CLOSING, SPURT = 6, 7, 8, 9, 10, 11, 12, 13
+IMPULSE, WHEN, ASIDE, ACTIVE, OLD, WAY, CLOSING, SPURT, BLOW = 6, 7, 8, 9, 10, 11, 12, 13, 14
 """Impulse; moment of an impact, s; impulse kept aside; taking part; impulse a round ago, and the direction in
-which it goes on; its rate before an impact, and what that gains until then, m/s."""
-BARS = 14
+which it goes on; its rate before an impact, and what that gains until then, m/s; whether the impact is its own."""
+BARS = 15
 
 LAST = 0
 """Column of `reals`: length of the last kick, s."""

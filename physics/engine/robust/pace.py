@@ -19,12 +19,15 @@ from numpy.typing import NDArray
 
 from physics.engine.cells import head
 from physics.engine.forces import add, clearance, powers, put, wind
-from physics.engine.robust.collide import FAST, strike
+from physics.engine.robust.collide import strike
 from physics.engine.robust.crowd import Record
+from physics.engine.robust.groups import blows
 from physics.engine.robust.keep import keep, mark
-from physics.engine.robust.manifold import GAP, NX, NY, ONE, OTHER, PN, PT, TARGET
+from physics.engine.robust.landing import forget, landed
+from physics.engine.robust.manifold import GAP, NX, NY, ONE, OTHER, PN, PT, TARGET, WN
 from physics.engine.robust.memory import (
     ACTIVE,
+    ASIDE,
     CONTACTS,
     DONE,
     EVENTS,
@@ -68,14 +71,13 @@ from physics.engine.robust.project import project
 from physics.engine.robust.rates import haul, opening, press, rate_of
 from physics.engine.robust.soft import bring_up, settle
 from physics.engine.robust.watch import release, watch_contacts, watch_rest, watch_supports, watch_wires
-from physics.engine.rows import CORD, GIVEN, POINT, refresh
+from physics.engine.rows import CORD, GIVEN, PIN_X, PIN_Y, POINT, refresh
 from physics.engine.tables import (
     WORLD,
     course_of,
     inverses,
     link_of,
     masses,
-    reaches,
     support_of,
     value,
 )
@@ -90,8 +92,6 @@ CLOSE = 1e-12
 """m/s: sweeps end when no rate changes by more."""
 CREEP = 5e-4
 """m: the most that a wire or pin is put right within a substep: what was drawn wrong is not torn right."""
-LANDING = 2.0
-"""An acceleration that is greater by this factor than all forces but the contacts' would make it is a landing's."""
 QUIET = 5e-13
 """m/s: below it on every body nothing moves."""
 FRAME = 60
@@ -156,23 +156,16 @@ def _begin(w: Any, m: Any, lag: float) -> None:
     """Velocities at the time of the poses, as far as they are known before the kick: accelerations are taken to be
     those of the last one, but where a landing made them."""
     pos, vel, acc, now, start = pos_of(m), vel_of(m), acc_of(m), now_of(m), start_of(m)
-    turns, when, force, inverse, reach = turns_of(m), when_of(m), force_of(m), inverses(w), reaches(w)
+    turns, when = turns_of(m), when_of(m)
     wind(w, pos)
     for k in range(m.rows):
         row = row_of(m, k)
         if row.kind == CORD:
             row.wound = link_of(w, row.source).wound
+    if tally_of(m)[LANDED] == 1:
+        forget(w, m)
     for i in range(len(pos)):
-        most = (
-            np.inf
-            if tally_of(m)[LANDED] == 0
-            else LANDING * (abs(force[i, 0]) * inverse[i, 0] + abs(force[i, 1]) * inverse[i, 1])
-        )
-        if abs(acc[i, 0]) + abs(acc[i, 1]) > most:
-            acc[i, 0], acc[i, 1], acc[i, 2] = 0.0, 0.0, 0.0
-        elif abs(acc[i, 2]) * reach[i] > most + LANDING * abs(force[i, 2]) * inverse[i, 2] * reach[i]:
-            acc[i, 2] = 0.0
-        when[i] = 0.0
+        when[i] = np.inf
         turns[i, 0], turns[i, 1] = np.cos(pos[i, 2]), np.sin(pos[i, 2])
         for q in range(3):
             start[i, q] = vel[i, q]
@@ -184,12 +177,13 @@ def _sync(w: Any, m: Any, lag: float, kick: float, struck: bool) -> None:
     """Accelerations by the kick, and velocities at its time."""
     vel, acc, now, start, before = vel_of(m), acc_of(m), now_of(m), start_of(m), before_of(m)
     inverse = inverses(w)
+    hit = blows(w, m) if struck else np.zeros(len(vel))
     for i in range(len(vel)):
         for q in range(3):
             free = inverse[i, q] > 0.0
             acc[i, q] = (vel[i, q] - (before[i, q] if free else start[i, q])) / kick
-            # What is struck has another velocity at once; before that, all went on as they did.
-            if not (struck and free):
+            # What is struck, and what it acts on, has another velocity at once; before that, it went on as it did.
+            if hit[i] == 0.0 or not free:
                 now[i, q] = start[i, q] + lag * acc[i, q]
 
 
@@ -218,13 +212,18 @@ def _drift(w: Any, m: Any, movable: int, h: float, struck: bool) -> None:
 
 
 @part
+def _changed(vel: FloatArray, start: FloatArray, i: int) -> bool:
+    return vel[i, 0] != start[i, 0] or vel[i, 1] != start[i, 1] or vel[i, 2] != start[i, 2]
+
+
+@part
 def _goals(w: Any, m: Any, h: float, kick: float, struck: bool) -> None:
     """The rate that each contact and row must have after the kick, and their impulses of the last one."""
     jacobian, ends, pos, now, asked = jacobian_of(m), ends_of(m), pos_of(m), now_of(m), asked_of(m)
     real, bars = real_of(m), bars_of(m)
     last = reals_of(m)[LAST]
     warm = kick / last if last > 0.0 else 0.0
-    vel, before, whole, shift = vel_of(m), before_of(m), whole_of(m), shift_of(m)
+    vel, before, whole, shift, start = vel_of(m), before_of(m), whole_of(m), shift_of(m), start_of(m)
     for i in range(len(vel)):
         for q in range(3):
             before[i, q] = vel[i, q]
@@ -236,11 +235,13 @@ def _goals(w: Any, m: Any, h: float, kick: float, struck: bool) -> None:
         real[TARGET, k] = -max(gap, 0.0) / h
         real[PN, k] *= warm
         real[PT, k] *= warm
+        real[WN, k] = real[PN, k]
     for k in range(m.rows):
         row = row_of(m, k)
-        if struck:
+        if struck and (_changed(vel, start, row.i) or _changed(vel, start, row.j)):
             refresh(row, pos, vel)
         bars[k, IMPULSE] *= warm
+        bars[k, ASIDE] = bars[k, IMPULSE]
         if row.kind == GIVEN or row.kind == POINT:
             support = support_of(w, row.source)
             gap = clearance(w, row.source, pos, now)[0]
@@ -261,7 +262,7 @@ def _goals(w: Any, m: Any, h: float, kick: float, struck: bool) -> None:
 
 @part
 def _kick(w: Any, m: Any, movable: int, kick: float) -> float:
-    """Velocities after the kick; the heat that its constraints make, J."""
+    """Velocities after the kick; the heat that its constraints make, J: pins make none."""
     jacobian, ends = jacobian_of(m), ends_of(m)
     vel, real, whole, bars, inverse = vel_of(m), real_of(m), whole_of(m), bars_of(m), inverses(w)
     contacts, force, before, mass = tally_of(m)[CONTACTS], force_of(m), before_of(m), masses(w)
@@ -283,6 +284,10 @@ def _kick(w: Any, m: Any, movable: int, kick: float) -> float:
             if inverse[i, q] > 0.0:
                 gain = mass[i, q] * (vel[i, q] - before[i, q]) - kick * force[i, q]
                 heat -= 0.5 * (vel[i, q] + before[i, q]) * gain
+    for k in range(len(bars)):
+        if row_of(m, k).kind in (PIN_X, PIN_Y):
+            rate = rate_of(jacobian, ends, k, vel) + rate_of(jacobian, ends, k, before)
+            heat += 0.5 * bars[k, IMPULSE] * rate
     return heat
 
 
@@ -304,19 +309,6 @@ def _sum_up(m: Any, kick: float) -> None:
         for q in range(3):
             total[row.i, q] += jacobian[k, q] * bars[k, IMPULSE] / kick
             total[row.j, q] += jacobian[k, 3 + q] * bars[k, IMPULSE] / kick
-
-
-@part
-def _landed(m: Any) -> None:
-    """Tells whether a kick stopped something that was still apart: such a force does not last."""
-    real, tally = real_of(m), tally_of(m)
-    tally[LANDED] = 0
-    for k in range(tally[CONTACTS]):
-        if real[PN, k] > 0.0 and real[TARGET, k] < -FAST:
-            tally[LANDED] = 1
-    for k in range(m.rows):
-        if row_of(m, k).kind == CORD and bars_of(m)[k, IMPULSE] > 0.0 and bars_of(m)[k, GOAL] < -FAST:
-            tally[LANDED] = 1
 
 
 @kernel
@@ -377,8 +369,8 @@ def run(
         if done % each == 0:
             keep(w, m, record, kick)
         if struck:
-            mark(m, record, (done % each) * h)
-        _landed(m)
+            mark(w, m, record, (done % each) * h)
+        landed(m)
         for k in range(len(ledger)):
             ledger[k] += 0.5 * h * power[k]
         ledger[0] += max(loss, 0.0)

@@ -51,6 +51,7 @@ class RobustRun:
     ) -> None:
         self.world, self.given = copied(world), copied(world)
         self.names, self.start = names, time
+        self.begun = self._energy(pos[None], vel[None])
         entries = ledger_size(world)
         self.crowd = crowd_of(self.world, names, pos, vel, np.zeros(entries) if ledger is None else ledger)
         self.each = _substeps(world)
@@ -133,8 +134,8 @@ class RobustRun:
     def _break(
         self, at: IntArray, after: IntArray, share: FloatArray, pos: FloatArray, vel: FloatArray
     ) -> None:
-        """Where a body is struck between two records, its velocity jumps; beside that, all go evenly from one to the
-        other, those too that are not struck, so that momentum is kept on the way."""
+        """Where a body is struck between two records, its velocity jumps, and it goes straight to where it ends; beside
+        that, all go evenly from one to the other, those too that are not struck, so that momentum is kept on the way."""
         record, h = self.record, self.pitch
         frames = np.flatnonzero((record.struck[at] >= 0.0).any(axis=1) & (share > 0.0))
         if not len(frames):
@@ -143,8 +144,9 @@ class RobustRun:
         x0, x1, v0, v1 = record.pos[first], record.pos[last], record.vel[first], record.vel[last]
         hit, jump, s = record.struck[first][:, :, None], record.jump[first], share[frames][:, None, None] * h
         even = (v1 - v0 - jump) / h
-        apart = x1 - x0 - h * (v0 + 0.5 * h * even) - (h - hit) * jump
-        pos[frames] = x0 + s * (v0 + 0.5 * s * even + apart / h) + np.maximum(s - hit, 0.0) * jump
+        turn = np.clip(hit, 0.0, h * (1.0 - 1e-9))
+        apart = (x1 - x0 - h * (v0 + 0.5 * h * even)) / (h - turn)
+        pos[frames] = x0 + s * (v0 + 0.5 * s * even) + np.maximum(s - turn, 0.0) * apart
         vel[frames] = v0 + s * even + (s > hit) * jump
 
     def place(self, time: float, at: IntArray, pos: FloatArray) -> None:
@@ -163,14 +165,15 @@ class RobustRun:
         right. It is what neither rubbing nor damping nor an impact made heat of."""
         entries, first = self.ledger(times), self.record.ledger[0]
         booked = entries[:, 1:].sum(axis=1) - first[1:].sum() - (entries[:, 0] - first[0])
-        return self._mechanical(np.full(1, self.start)) + booked - self._mechanical(self._known(times))
+        return self.begun + booked - self._energy(*self.states(self._known(times)))
 
     def _known(self, times: FloatArray) -> FloatArray:
         """Times, none after the last record."""
         return np.minimum(times, self.start + self.pitch * (self._records() - 1))
 
-    def _mechanical(self, times: FloatArray) -> FloatArray:
-        return sum(energies(self.given, self.names, *self.states(times)), np.zeros(len(times)))
+    def _energy(self, pos: FloatArray, vel: FloatArray) -> FloatArray:
+        """Kinetic, potential and elastic, (T,) J."""
+        return sum(energies(self.given, self.names, pos, vel), np.zeros(len(pos)))
 
     def observe(self, times: FloatArray) -> tuple[list[Act], FloatArray]:
         """All forces, and accelerations (T, bodies + 1, 3): of the substep in which each time lies."""
