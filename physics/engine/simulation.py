@@ -20,8 +20,9 @@ from math import floor, inf, isfinite
 
 import numpy as np
 
+from physics.engine.exact.parting import separate
 from physics.engine.exact.run import ExactRun
-from physics.engine.exact.standing import TooMuch, separate
+from physics.engine.exact.standing import TooMuch
 from physics.engine.exact.tell import Teller
 from physics.engine.exact.touch import TOUCHING, near_pairs
 from physics.engine.meetings import Meeting, first_meeting

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
-from physics_crowds import carried, crowd_at, number, renamed, scenes, together
+from physics_crowds import carried, number, renamed, scenes, together
 from physics_scenes import (
     G,
     box,

@@ -13,7 +13,7 @@ scheme, for changing one row at a time.
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -41,6 +41,19 @@ SETS = 4096
 IDLE, PUSHES = 0, 1
 """Of a row that takes part: it is left, or it holds its aim."""
 SMOOTH, STICKS, SLIPS = 0, 1, 2
+
+
+class Guess(NamedTuple):
+    """Which rows push (`PUSHES`), how they rub (`STICKS`) and which way they slip (±1), each (rows,); the impulses that
+    follow, N s; the velocities `bare` of all impulses and `after` them, (bodies + 1, 3)."""
+
+    push: IntArray
+    grip: IntArray
+    sense: FloatArray
+    force: FloatArray
+    rub: FloatArray
+    bare: FloatArray
+    after: FloatArray
 
 
 @part
@@ -154,8 +167,8 @@ def _solved(w: Any, rows: Table, vel: FloatArray, most: float) -> bool:
     `vel` only where it finds the answer. most: by which a speed may be wrong, m/s."""
     n = len(rows)
     inverse = inverses(w)
-    push, grip, sense = np.zeros(n, np.int64), np.zeros(n, np.int64), np.zeros(n)
-    force, rub = np.zeros(n), np.zeros(n)
+    guess = _nothing(rows, inverse, vel)
+    push, grip, sense, rub = guess.push, guess.grip, guess.sense, guess.rub
     for k in range(n):
         row = rows[k]
         if _takes_part(row, inverse):
@@ -164,13 +177,11 @@ def _solved(w: Any, rows: Table, vel: FloatArray, most: float) -> bool:
                 sticks = abs(row.rub) < _bound(row) or row.force <= 0.0
                 grip[k] = STICKS if sticks else SLIPS
                 sense[k] = np.sign(row.rub)
-    bare = _unpushed(rows, inverse, vel)
-    after = bare.copy()
     for _ in range(4 * n + 8):
-        _impulses(rows, inverse, push, grip, sense, bare, force, rub, after)
-        worst, what = _worst(rows, inverse, push, grip, sense, force, rub, after, most)
+        _impulses(rows, inverse, guess)
+        worst, what = _worst(rows, inverse, guess, most)
         if what == 0:
-            _take(rows, vel, force, rub, after)
+            _take(rows, vel, guess)
             return True
         if what < 0:
             return False
@@ -190,8 +201,6 @@ def _searched(w: Any, rows: Table, vel: FloatArray, most: float) -> bool:
     """The same by trying every set of rows that push, stick, slip to and fro, where there are few enough."""
     n = len(rows)
     inverse = inverses(w)
-    push, grip, sense = np.zeros(n, np.int64), np.zeros(n, np.int64), np.zeros(n)
-    force, rub = np.zeros(n), np.zeros(n)
     ways = np.ones(n, np.int64)
     sets = 1
     for k in range(n):
@@ -203,8 +212,8 @@ def _searched(w: Any, rows: Table, vel: FloatArray, most: float) -> bool:
             sets *= ways[k]
             if sets > SETS:
                 return False
-    bare = _unpushed(rows, inverse, vel)
-    after = bare.copy()
+    guess = _nothing(rows, inverse, vel)
+    push, grip, sense = guess.push, guess.grip, guess.sense
     for chosen in range(sets):
         rest = chosen
         for k in range(n):
@@ -220,38 +229,30 @@ def _searched(w: Any, rows: Table, vel: FloatArray, most: float) -> bool:
                 turn = way if _pulls(row) else way - 1
                 grip[k] = STICKS if turn == 0 else SLIPS
                 sense[k] = 0.0 if turn == 0 else (1.0 if turn == 1 else -1.0)
-        _impulses(rows, inverse, push, grip, sense, bare, force, rub, after)
-        if _worst(rows, inverse, push, grip, sense, force, rub, after, most)[1] == 0:
-            _take(rows, vel, force, rub, after)
+        _impulses(rows, inverse, guess)
+        if _worst(rows, inverse, guess, most)[1] == 0:
+            _take(rows, vel, guess)
             return True
     return False
 
 
 @part
-def _unpushed(rows: Table, inverse: FloatArray, vel: FloatArray) -> FloatArray:
-    """The velocities without the impulses that rows have."""
-    bare = vel.copy()
-    for k in range(len(rows)):
+def _nothing(rows: Table, inverse: FloatArray, vel: FloatArray) -> Guess:
+    """That no row pushes: the velocities are those without the impulses that rows have."""
+    n, bare = len(rows), vel.copy()
+    for k in range(n):
         _push(rows[k], rows[k].J, -rows[k].force, inverse, bare)
         _push(rows[k], rows[k].T, -rows[k].rub, inverse, bare)
-    return bare
+    push, grip = np.zeros(n, np.int64), np.zeros(n, np.int64)
+    return Guess(push, grip, np.zeros(n), np.zeros(n), np.zeros(n), bare, bare.copy())
 
 
 @part
-def _impulses(
-    rows: Table,
-    inverse: FloatArray,
-    push: IntArray,
-    grip: IntArray,
-    sense: FloatArray,
-    bare: FloatArray,
-    force: FloatArray,
-    rub: FloatArray,
-    after: FloatArray,
-) -> None:
+def _impulses(rows: Table, inverse: FloatArray, guess: Guess) -> None:
     """Fills in force, rub and the velocities after them, for a set of rows that push and stick. What rows have
     already stays where many impulses would do."""
-    after[:] = bare
+    push, grip, force, rub, after = guess.push, guess.grip, guess.force, guess.rub, guess.after
+    after[:] = guess.bare
     for k in range(len(rows)):
         row = rows[k]
         force[k] = row.force if push[k] == PUSHES else 0.0
@@ -260,35 +261,28 @@ def _impulses(
             if grip[k] == STICKS:
                 rub[k] = row.rub
             elif grip[k] == SLIPS:
-                rub[k] = sense[k] * row.mu * force[k]
+                rub[k] = guess.sense[k] * row.mu * force[k]
             _push(row, row.J, force[k], inverse, after)
             _push(row, row.T, rub[k], inverse, after)
     for _ in range(2):
         # Twice: the second time mends what rounding left.
-        _step(rows, inverse, push, grip, sense, force, rub, after)
+        _step(rows, inverse, guess)
 
 
 @part
-def _take(rows: Table, vel: FloatArray, force: FloatArray, rub: FloatArray, after: FloatArray) -> None:
+def _take(rows: Table, vel: FloatArray, guess: Guess) -> None:
     for k in range(len(rows)):
-        rows[k].force, rows[k].rub = force[k], rub[k]
+        rows[k].force, rows[k].rub = guess.force[k], guess.rub[k]
     for i in range(len(vel)):
         for a in range(3):
-            vel[i, a] = after[i, a]
+            vel[i, a] = guess.after[i, a]
 
 
 @part
-def _step(
-    rows: Table,
-    inverse: FloatArray,
-    push: IntArray,
-    grip: IntArray,
-    sense: FloatArray,
-    force: FloatArray,
-    rub: FloatArray,
-    after: FloatArray,
-) -> None:
+def _step(rows: Table, inverse: FloatArray, guess: Guess) -> None:
     """Solves for what the impulses still lack, and adds it to force, rub and the velocities after them."""
+    push, grip, sense = guess.push, guess.grip, guess.sense
+    force, rub, after = guess.force, guess.rub, guess.after
     owner, tangent = np.zeros(2 * len(rows), np.int64), np.zeros(2 * len(rows), np.int64)
     m = 0
     for k in range(len(rows)):
@@ -372,19 +366,11 @@ def _eliminated(full: FloatArray, goal: FloatArray) -> FloatArray:
 
 
 @part
-def _worst(
-    rows: Table,
-    inverse: FloatArray,
-    push: IntArray,
-    grip: IntArray,
-    sense: FloatArray,
-    force: FloatArray,
-    rub: FloatArray,
-    after: FloatArray,
-    most: float,
-) -> tuple[int, int]:
+def _worst(rows: Table, inverse: FloatArray, guess: Guess, most: float) -> tuple[int, int]:
     """(the row that is most wrong, what mends it: 0 none is, 1 to push or to be left, 2 to slip, 3 to stick, or -1: it
     cannot be mended)."""
+    push, grip, sense = guess.push, guess.grip, guess.sense
+    force, rub, after = guess.force, guess.rub, guess.after
     worst, which, what = most, 0, 0
     for k in range(len(rows)):
         row = rows[k]

@@ -26,10 +26,11 @@ from physics.engine.exact.explain import explain, follow_frames
 from physics.engine.exact.integrate import projected
 from physics.engine.exact.machine import FIRST, H, Machine, T, machine_of
 from physics.engine.exact.moments import CRAWLS, FULL, HAPPENED, MET, STOPPED, SWITCHED
+from physics.engine.exact.parting import separate
 from physics.engine.exact.record import Record
 from physics.engine.exact.rest import CALM, at_rest, liveliest
 from physics.engine.exact.solve import LARGEST, system_of
-from physics.engine.exact.standing import SLUGGISH, TooMuch, closes, gathered_rows, parts, separate
+from physics.engine.exact.standing import SLUGGISH, TooMuch, closes, gathered_rows, parts
 from physics.engine.exact.tell import Teller
 from physics.engine.exact.touch import TOUCHING
 from physics.engine.rows import CORD, GIVEN, OFF, ON, PIN_X, POINT, ROW

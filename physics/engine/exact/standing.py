@@ -8,8 +8,7 @@ import numpy as np
 
 from physics.engine.cells import head
 from physics.engine.exact.decide import grip_of
-from physics.engine.exact.strike import APPROACH, overlap
-from physics.engine.exact.tell import Teller
+from physics.engine.exact.strike import APPROACH
 from physics.engine.exact.touch import TOUCHING, all_touching
 from physics.engine.forces import wind
 from physics.engine.rows import CORD, GIVEN, OFF, ON, PIN_X, POINT, ROW, STICK, refresh
@@ -27,26 +26,6 @@ SLUGGISH = 3e-2
 
 class TooMuch(ArithmeticError):
     """Exact mode cannot go on from here; robust mode can."""
-
-
-def separate(world: World, pos: FloatArray, vel: FloatArray, tell: Teller, time: float) -> None:
-    """Moves bodies apart that overlap, changing pos, and tells so. Raises TooMuch where that does not end."""
-    if not len(world.pairs):
-        return
-    met: set[tuple[int, int]] = set()
-    for _ in range(400):
-        rows = touching_rows(world, pos, vel)
-        if not len(rows):
-            break
-        overlapping = rows[rows["gap"] < -TOUCHING]
-        met |= {(min(row["i"], row["j"]), max(row["i"], row["j"])) for row in overlapping}
-        if overlap(world.cells, rows, pos) <= 0.5 * TOUCHING:
-            break
-    else:
-        if met:
-            raise TooMuch
-    for i, j in sorted(met):
-        tell.separated(time, int(i), int(j))
 
 
 def touching_rows(world: World, pos: FloatArray, vel: FloatArray) -> Table:

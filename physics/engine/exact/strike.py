@@ -31,7 +31,7 @@ RISE = 1e-9
 """m: a rebound that would rise less stays away, and so does what would follow it: else there would be
 infinitely many."""
 ROUNDS = 60
-"""Blows in consequence of one another, until they rebound no more."""
+"""Blows in consequence of one another, until they rebound no more and all that touches shares in them."""
 
 
 @kernel
@@ -68,6 +68,9 @@ def strike(
                 row.bound, row.along = 1.0, 0.0
                 off = abs(row.rate) if row.kind >= PIN_X else -row.rate
                 needed = needed or off > APPROACH
+            elif row.rate >= -APPROACH and turn >= ROUNDS:
+                # What is shut stays so: one after another, dead blows would go on without end.
+                row.bound, row.along = 1.0, 0.0
             elif row.rate < -APPROACH:
                 needed = True
                 row.bound, row.along = 1.0, 0.0

@@ -50,6 +50,14 @@ def corner(w: Any, pos: FloatArray, i: int, q: int) -> tuple[float, float]:
 
 
 @part
+def face_of(w: Any, pos: FloatArray, i: int, face: int) -> tuple[float, float, float, float]:
+    """The outward normal of a face of block i in the world, and the corner where it begins, m."""
+    nx, ny = turned(pos[i, 2], normals(w)[face, 0], normals(w)[face, 1])
+    x, y = corner(w, pos, i, face)
+    return nx, ny, x, y
+
+
+@part
 def outside(w: Any, i: int, x: float, y: float) -> tuple[float, int]:
     """How far outside block i its widest face keeps a point (x, y) of its frame, m, and that face."""
     best, face = -1e300, firsts(w)[i]
@@ -132,8 +140,7 @@ def newcomers(w: Any, m: Any, i: int, j: int, p: int) -> float:
     for side in range(2):
         one, other = (i, j) if side == 0 else (j, i)
         for q in range(firsts(w)[one], firsts(w)[one] + counts(w)[one]):
-            nx, ny = turned(pos[one, 2], normals(w)[q, 0], normals(w)[q, 1])
-            ax, ay = corner(w, pos, one, q)
+            nx, ny, ax, ay = face_of(w, pos, one, q)
             kept_off = 1e300
             for v in range(firsts(w)[other], firsts(w)[other] + counts(w)[other]):
                 px, py = corner(w, pos, other, v)
@@ -297,8 +304,7 @@ def _block_on_block(
 @part
 def _keeps_off(w: Any, pos: FloatArray, i: int, face: int, j: int) -> float:
     """How far a face of block i keeps block j away, m."""
-    nx, ny = turned(pos[i, 2], normals(w)[face, 0], normals(w)[face, 1])
-    ax, ay = corner(w, pos, i, face)
+    nx, ny, ax, ay = face_of(w, pos, i, face)
     least = 1e300
     for v in range(firsts(w)[j], firsts(w)[j] + counts(w)[j]):
         px, py = corner(w, pos, j, v)
@@ -322,8 +328,7 @@ def _corners_on_face(
     start: int,
 ) -> int:
     """Adds the corners of the other block that lie on a face of this one."""
-    nx, ny = turned(pos[one, 2], normals(w)[face, 0], normals(w)[face, 1])
-    ax, ay = corner(w, pos, one, face)
+    nx, ny, ax, ay = face_of(w, pos, one, face)
     for v in range(firsts(w)[other], firsts(w)[other] + counts(w)[other]):
         px, py = corner(w, pos, other, v)
         if nx * (px - ax) + ny * (py - ay) <= gap + SAME:
@@ -347,8 +352,7 @@ def _flush_with_face(
     start: int,
 ) -> int:
     """Adds the ends of a face of this block that are carried by a face of the other which lies flush with it."""
-    nx, ny = turned(pos[one, 2], normals(w)[face, 0], normals(w)[face, 1])
-    ax, ay = corner(w, pos, one, face)
+    nx, ny, ax, ay = face_of(w, pos, one, face)
     low = firsts(w)[other]
     for q in range(low, low + counts(w)[other]):
         mx, my = turned(pos[other, 2], normals(w)[q, 0], normals(w)[q, 1])
