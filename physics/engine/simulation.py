@@ -70,7 +70,7 @@ class Simulation:
         stiff for their load."""
         if not 0 < accuracy < 1:
             raise SceneError(f"an accuracy of {accuracy:g} is none; it must lie between 0 and 1")
-        self.scene, self.mode, self.accuracy = scene, mode, accuracy
+        self.scene, self.mode, self.accuracy = scene, mode, float(accuracy)
         self.time = 0.0
         self.strands: list[Strand] = []
         self.known: dict[frozenset[str], tuple[World, Names]] = {}
@@ -94,6 +94,7 @@ class Simulation:
         """Goes on until everything has been simulated up to `seconds`, or a formula has no value."""
         if not isfinite(seconds):
             raise SceneError(f"cannot move for {seconds:g} s; it must be a number")
+        seconds = float(seconds)  # of whole numbers numba would compile everything anew
         while self.time < seconds and self.stopped == inf:
             live = self._live()
             # One cluster alone meets nobody: it may go on to the end.

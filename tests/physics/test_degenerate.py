@@ -12,6 +12,7 @@ from physics_scenes import (
     G,
     T,
     atwood,
+    block,
     box,
     disc,
     events,
@@ -164,6 +165,21 @@ def test_two_boxes_drawn_crossed_are_moved_apart_by_the_shortest_way() -> None:
     sound(moved, scene)
     assert moved.path("B")[0, 0] - moved.path("A")[0, 0] == pytest.approx(1.0, abs=1e-6)
     assert moved.path("B")[0, 1] - moved.path("A")[0, 1] == pytest.approx(0.2, abs=1e-6)
+
+
+@modes
+@pytest.mark.parametrize("body", [disc("A", 0, 0, 0.2), box("A", 0, 0, 0.3, 0.2)], ids=["disc", "box"])
+@pytest.mark.parametrize("at", [(-0.5, 0.1), (0.0, 0.3), (0.9, 0.02)])
+def test_what_is_drawn_within_a_slope_on_its_floor_is_taken_out_of_both(
+    body: Body, at: tuple[float, float], mode: Mode
+) -> None:
+    slope = block("slope", 0, 0.5, ((-1.0, -0.5), (2.0, -0.5), (-1.0, 1.0)), fixed=True)
+    scene = Scene((replace(body, position=at), floor(), slope))
+    moved = simulate(scene, 1, mode=mode)
+    assert overlap(moved, scene) < (1e-3 if mode == "robust" else 1e-6)
+    assert moved.path("A")[0, 1] > 0.0
+    if mode == "exact":
+        sound(moved, scene)
 
 
 def test_a_disc_jammed_between_a_floor_and_a_ceiling_too_near_stays_finite_and_slow() -> None:

@@ -5,14 +5,16 @@ from __future__ import annotations
 import pickle
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from math import pi, sqrt
+from typing import TypeVar, cast
 
 import numpy as np
 import pytest
-from hypothesis import Phase, given, settings
+from hypothesis import Phase, example, given, settings
 from hypothesis import strategies as st
-from physics_crowds import carried, number, renamed, scenes, together
+from physics_crowds import Ground, carried, crowd_at, number, renamed, scenes, together
 from physics_scenes import (
     G,
     box,
@@ -40,6 +42,19 @@ SCENES = settings(
     max_examples=15, deadline=None, derandomize=True, phases=(Phase.explicit, Phase.reuse, Phase.generate)
 )
 modes = pytest.mark.parametrize("mode", ["exact", "robust"])
+Test = TypeVar("Test", bound=Callable[..., None])
+
+
+def and_crowds(ground: Ground, *seeds: int) -> Callable[[Test], Test]:
+    """These always, whatever else is drawn: the engine was wrong about them once."""
+
+    def added(test: Test) -> Test:
+        for seed in seeds:
+            test = cast(Test, example(crowd_at(seed, ground))(test))
+        return test
+
+    return added
+
 
 # Conservation -----------------------------------------------------------------------------------
 
@@ -80,18 +95,21 @@ def test_momentum_and_its_moment_are_kept_where_nothing_is_fixed(scene: Scene) -
 
 
 @SCENES
+@and_crowds("none", 15, 85, 125, 151)
 @given(scenes("none"))
 def test_momentum_and_its_moment_are_kept_in_small_steps_too(scene: Scene) -> None:
     keeps_momentum("robust", scene)
 
 
 @SCENES
+@and_crowds("floor", 40)
 @given(scenes())
 def test_energy_is_never_created_by_contacts_and_links_and_the_ledger_balances(scene: Scene) -> None:
     creates_no_energy("exact", scene)
 
 
 @SCENES
+@and_crowds("floor", 31, 130, 176)
 @given(scenes())
 def test_energy_is_not_created_in_small_steps_either(scene: Scene) -> None:
     creates_no_energy("robust", scene)
@@ -104,6 +122,7 @@ def test_solids_never_enter_each_other_and_every_number_is_finite(scene: Scene) 
 
 
 @SCENES
+@and_crowds("floor", 31, 40, 99, 105, 129, 130)
 @given(scenes())
 def test_solids_stay_apart_in_small_steps_too(scene: Scene) -> None:
     stays_apart_and_finite("robust", scene)

@@ -55,15 +55,16 @@ def _pushed_apart(world: World, pos: FloatArray, vel: FloatArray) -> tuple[set[C
 
 
 def _taken_out(world: World, pos: FloatArray, met: set[Couple]) -> bool:
-    """Moves each body that overlaps two or more that are fixed out of them all, by the least that takes it past a
-    face of one of them, not downwards where it can be helped, changing pos; whether there was any."""
+    """Moves each body whose centre is within one that is fixed, and that another fixed one keeps there, out of all
+    such, by the least that takes it past a face of one of them, not downwards where it can be helped. Changes pos;
+    tells whether there was any. What is merely too large for a gap stays jammed in it."""
     fixed: NDArray[np.bool_] = (world.inverse == 0.0).all(axis=1)
     solid = {int(k) for pair in world.pairs for k in (pair["i"], pair["j"]) if fixed[k]}
     down, moved = world.gravity, False
     for body in sorted({k for couple in met for k in couple if not fixed[k]}):
         against = [one if other == body else other for one, other in sorted(met) if body in (one, other)]
         against = [other for other in against if fixed[other]]
-        if len(against) < 2:
+        if len(against) < 2 or not any(_holds(world, pos, other, pos[body, :2]) for other in against):
             continue
         ways = _ways_out(world, pos, body, against)
         for shift in sorted(ways, key=lambda way: (bool(way @ down > 0.0), float(np.hypot(*way)))):
@@ -94,6 +95,12 @@ def _outline(world: World, pos: FloatArray, body: int) -> tuple[FloatArray, Floa
     c, s = np.cos(pos[body, 2]), np.sin(pos[body, 2])
     turn = np.array([[c, s], [-s, c]])
     return world.corners[mine] @ turn + pos[body, :2], world.normals[mine] @ turn
+
+
+def _holds(world: World, pos: FloatArray, body: int, point: FloatArray) -> bool:
+    """Whether a point is within a block."""
+    corners, normals = _outline(world, pos, body)
+    return bool(len(corners)) and float(np.einsum("kc,kc->k", normals, point - corners).max()) < 0.0
 
 
 def _nearest(world: World, pos: FloatArray, body: int, normal: FloatArray) -> float:

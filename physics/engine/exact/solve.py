@@ -247,12 +247,22 @@ def solve(w: Any, m: Any) -> None:
         status(m)[0] = 0
         found(m)[0] = given(m)[0] / total if total != 0.0 else 0.0
         return
-    _fill(m, inverse)
-    _solve(m)
+    even = _even(m)
+    _fill(m, inverse, even)
+    _solve(m, even)
 
 
 @part
-def _fill(m: Any, inverse: FloatArray) -> None:
+def _even(m: Any) -> bool:
+    """Whether the matrix is symmetric: only what slips pushes otherwise than it gives."""
+    even = True
+    for a in range(m.unknowns):
+        even = even and row_of(m, unknown_rows(m)[a]).grip != SLIDE
+    return even
+
+
+@part
+def _fill(m: Any, inverse: FloatArray, even: bool) -> None:
     a_matrix, start, owners, tangent = matrix(m), starts(m), unknown_rows(m), tangents(m)
     for a in range(m.unknowns):
         for b in range(start[a], a + 1):
@@ -264,22 +274,28 @@ def _fill(m: Any, inverse: FloatArray) -> None:
         first, second = row_of(m, owners[a]), row_of(m, owners[b])
         a_matrix[a, b] = coupling(first, tangent[a], second, tangent[b], inverse)
         if a != b:
-            a_matrix[b, a] = coupling(second, tangent[b], first, tangent[a], inverse)
+            a_matrix[b, a] = (
+                a_matrix[a, b] if even else coupling(second, tangent[b], first, tangent[a], inverse)
+            )
 
 
 @part
-def _factor(m: Any, shift: float) -> bool:
-    """LU of matrix + shift · 1 within its profile; tells whether a pivot vanished."""
+def _factor(m: Any, shift: float, even: bool) -> bool:
+    """LU of matrix + shift · 1 within its profile, U = D Lᵀ where the matrix is symmetric; tells whether a pivot
+    vanished."""
     full, lu, start = matrix(m), factor(m), starts(m)
     for a in range(m.unknowns):
         low = start[a]
         for b in range(low, a):
             lower = full[a, b]
-            upper = full[b, a]
             for k in range(max(low, start[b]), b):
                 lower -= lu[a, k] * lu[k, b]
-                upper -= lu[b, k] * lu[k, a]
             lu[a, b] = lower / lu[b, b]
+            upper = lower
+            if not even:
+                upper = full[b, a]
+                for k in range(max(low, start[b]), b):
+                    upper -= lu[b, k] * lu[k, a]
             lu[b, a] = upper
         pivot = full[a, a] + shift
         for k in range(low, a):
@@ -317,15 +333,17 @@ def _residual(m: Any) -> None:
 
 
 @part
-def _solve(m: Any) -> None:
-    full, solution, step = matrix(m), found(m), change(m)
+def _solve(m: Any, even: bool) -> None:
+    full, solution, step, goal = matrix(m), found(m), change(m), given(m)
     n = m.unknowns
     for a in range(n):
-        solution[a] = 0.0
-    if not _factor(m, 0.0):
+        solution[a], step[a] = 0.0, goal[a]
+    if not _factor(m, 0.0, even):
         status(m)[0] = 0
-        for _ in range(2):
-            _residual(m)
+        for turn in range(2):
+            # The second time mends what rounding left.
+            if turn > 0:
+                _residual(m)
             _substitute(m)
             for a in range(n):
                 solution[a] += step[a]
@@ -337,7 +355,7 @@ def _solve(m: Any) -> None:
     shift = PROXIMAL * largest if largest > 0.0 else 1.0
     # Slipping contacts can make A + εI singular all the same; ever more weight on ε mends that.
     for _ in range(6):
-        if not _factor(m, shift):
+        if not _factor(m, shift, even):
             break
         shift *= 100.0
     for _ in range(ITERATIONS):
