@@ -26,7 +26,7 @@ Finder = Callable[[Stroke], FloatArray]
 FINDERS: dict[str, Finder] = {
     "ShortStraw": short_straw,
     "IStraw": istraw,
-    "corners": lambda stroke: corners(stroke.points),
+    "corners": lambda stroke: corners(stroke.points, stroke.times),
 }
 NEAR = 0.15
 """Distance of a corner found from the one meant, over the figure's diagonal, at most: a hand displaces parts

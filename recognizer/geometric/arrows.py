@@ -11,7 +11,7 @@ from math import radians
 import numpy as np
 
 from recognizer.geometric.cusps import CUSPS
-from recognizer.geometric.kernels import head_of
+from recognizer.geometric.kernels.heads import head_of
 from sketch.ink import FloatArray
 
 

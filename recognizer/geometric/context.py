@@ -131,7 +131,7 @@ def is_scribble(stroke: Stroke, earlier: list[Stroke], rule: GestureRule = GESTU
 
 def _angular(stroke: Stroke, polygon: bool, rule: GestureRule = GESTURES) -> bool:
     """Whether what looks like a polygon has corners too."""
-    return polygon and len(corners(stroke.points)) >= rule.corners
+    return polygon and len(corners(stroke.points, stroke.times)) >= rule.corners
 
 
 def enclosed(stroke: Stroke, earlier: list[Stroke], rule: GestureRule = GESTURES) -> list[bool]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from recognizer.geometric.kernels import crossing_places
+from recognizer.geometric.kernels.paths import crossing_places
 from sketch.ink import FloatArray
 
 

@@ -12,7 +12,7 @@ from math import radians
 
 import numpy as np
 
-from recognizer.geometric.kernels import bend_angles
+from recognizer.geometric.kernels.paths import bend_angles
 from sketch.ink import FloatArray
 
 

@@ -18,7 +18,8 @@ import shapely
 
 from recognizer.geometric.bounds import Bound
 from recognizer.geometric.cusps import bends
-from recognizer.geometric.kernels import extent_of, head_shape, length_of, resampled
+from recognizer.geometric.kernels.heads import head_shape
+from recognizer.geometric.kernels.paths import extent_of, length_of, resampled
 from recognizer.group import boxes_of
 from sketch.geometry import diagonal, distinct
 from sketch.ink import FloatArray, Ink

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recognizer.geometric.kernels import legs_of, line_errors
+from recognizer.geometric.kernels.legs import legs_of, line_errors
 from sketch.ink import FloatArray
 
 

@@ -10,7 +10,7 @@ from math import hypot, pi, sqrt
 
 import numpy as np
 
-from recognizer.geometric.kernels import closing_pair, moments_of, ring_of, stray_of
+from recognizer.geometric.kernels.rings import closing_pair, moments_of, ring_of, stray_of
 from sketch.ink import FloatArray
 
 

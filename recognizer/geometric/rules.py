@@ -17,7 +17,8 @@ import numpy as np
 from recognizer.geometric.arrows import head
 from recognizer.geometric.bounds import Bound
 from recognizer.geometric.heads import head_evidence
-from recognizer.geometric.kernels import extent_of, length_of, line_rms, resampled, turning_shares
+from recognizer.geometric.kernels.paths import extent_of, length_of, line_rms, resampled
+from recognizer.geometric.kernels.rings import turning_shares
 from recognizer.geometric.legs import best_legs
 from recognizer.geometric.ring import Ring, ring
 from recognizer.geometric.teeth import Teeth, teeth

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recognizer.geometric.kernels import teeth_of, turning_points
+from recognizer.geometric.kernels.teeth import teeth_of, turning_points
 from sketch.ink import FloatArray
 
 

@@ -15,7 +15,7 @@ from math import pi, sqrt
 
 import numpy as np
 
-from recognizer.templates.kernel import kernel
+from recognizer.jit import kernel
 from recognizer.templates.points import (
     IntArray,
     as_one_stroke,

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recognizer.templates.kernel import kernel
+from recognizer.jit import kernel
 from recognizer.templates.points import IntArray, as_cloud, box_sides, by_label, centred, positive
 from sketch.ink import FloatArray, Ink
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from recognizer.templates.kernel import kernel
+from recognizer.jit import kernel
 from recognizer.templates.points import IntArray, as_cloud, box_sides, centred, positive
 from sketch.ink import FloatArray, Ink
 

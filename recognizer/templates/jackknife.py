@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recognizer.templates.kernel import kernel
+from recognizer.jit import kernel
 from recognizer.templates.points import IntArray, as_one_stroke, box_sides, by_label, directions, positive
 from sketch.ink import FloatArray, Ink
 
