@@ -9,18 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import log
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from recognizer.geometric.corners import corners
-from recognizer.geometric.ring import ring
-from recognizer.geometric.teeth import teeth
-from recognizer.preprocess import spaced, unit_path
-from sketch.geometry import diagonal, resample
+from recognizer.geometric.ring import Ring
+from recognizer.geometric.rules import Seen
+from recognizer.geometric.teeth import Teeth
+from recognizer.group import boxes_of
 from sketch.ink import FloatArray, Ink, Stroke
-from sketch.page import GestureKind
+from sketch.page import STROKE_KINDS, GestureKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,54 +62,69 @@ class GestureRule:
     """Size of an enclosed stroke over the lasso's: smaller ones are dots and blemishes,"""
     several: int = 3
     """unless so many strokes are enclosed: a line of writing, which nobody draws a block about afterwards."""
+    clear: float = log(0.5)
+    """Evidence from which a stroke is clearly a polygon: more likely than not, taken by itself."""
     corners: int = 2
     """Corners of an outline, besides its ends, from which what looks like a polygon is one."""
 
 
 GESTURES = GestureRule()
+POLYGON = STROKE_KINDS.index("polygon")
 
 
-def gestures(ink: Ink, polygons: Sequence[bool], rule: GestureRule = GESTURES) -> list[GestureKind | None]:
-    """For each stroke the gesture that its surroundings make it, or None. `polygons`: which strokes are
-    clearly polygons in themselves: with corners too they are no lassos, for a block may be drawn about another."""
+def gestures(
+    ink: Ink, looks: Sequence[Seen | None], rule: GestureRule = GESTURES
+) -> list[GestureKind | None]:
+    """For each stroke the gesture that its surroundings make it, or None. `looks`: what each looks like by itself. Those
+    that are clearly polygons, with corners too, are no lassos, for a block may be drawn about another."""
     found: list[GestureKind | None] = [None] * len(ink)
     if len(ink) == 0:
         return found
-    sizes = np.array([diagonal(stroke.points) for stroke in ink])
+    boxes = boxes_of(ink, range(len(ink)))
+    sizes = np.hypot(boxes[:, 2] - boxes[:, 0], boxes[:, 3] - boxes[:, 1])
     tiny = dots(ink, sizes, rule)
     if len(ink) == 1:
         return ["tap" if tiny[0] else None]
-    boxes = shapely.box(*np.array([_box(stroke) for stroke in ink]).T)
-    tree = shapely.STRtree(boxes)
-    for index, stroke in enumerate(ink):
-        if tiny[index]:
+    covered = shapely.box(*boxes.T)
+    drawn = np.flatnonzero(~tiny)
+    if len(drawn) < len(ink):
+        for index in np.flatnonzero(tiny).tolist():
             found[index] = "tap"
-            continue
-        near = tree.query(boxes[index])
-        earlier = np.sort(near[(near < index) & ~tiny[near]])[-rule.looked_at :].tolist()
-        if not earlier:
-            continue
-        if is_scribble(stroke, [ink[other] for other in earlier], rule):
-            found[index] = "scribble"
-        else:
-            smaller = [other for other in earlier if sizes[other] < sizes[index]]
-            small = [ink[other] for other in smaller if sizes[other] <= rule.worth * sizes[index]]
-            worthy = [ink[other] for other in smaller if sizes[other] > rule.worth * sizes[index]]
-            held = enclosed(stroke, [*worthy, *small], rule)
-            if sum(held) >= rule.several or (
-                any(held[: len(worthy)]) and not _angular(stroke, polygons[index])
-            ):
-                found[index] = "lasso"
+    over, under = shapely.STRtree(covered[drawn]).query(covered[drawn])
+    before: dict[int, list[int]] = {}
+    for index, other in zip(drawn[over].tolist(), drawn[under].tolist(), strict=True):
+        if other < index:
+            before.setdefault(index, []).append(other)
+    for index, others in before.items():
+        look = looks[index]
+        if look is not None:
+            found[index] = _gesture(ink, index, look, sorted(others)[-rule.looked_at :], sizes, rule)
     return found
+
+
+def _gesture(
+    ink: Ink, index: int, look: Seen, earlier: Sequence[int], sizes: FloatArray, rule: GestureRule
+) -> GestureKind | None:
+    """The gesture that one stroke is over those of the earlier strokes in its box, or None."""
+    stroke = ink[index]
+    if is_scribble(stroke, look.swings, [ink[other] for other in earlier], rule):
+        return "scribble"
+    smaller = [other for other in earlier if sizes[other] < sizes[index]]
+    small = [ink[other] for other in smaller if sizes[other] <= rule.worth * sizes[index]]
+    worthy = [ink[other] for other in smaller if sizes[other] > rule.worth * sizes[index]]
+    held = enclosed(stroke, look.outline, [*worthy, *small], rule)
+    if sum(held) >= rule.several or (any(held[: len(worthy)]) and not _angular(stroke, look, rule)):
+        return "lasso"
+    return None
 
 
 def dots(ink: Ink, sizes: FloatArray, rule: GestureRule = GESTURES) -> NDArray[np.bool_]:
     """Which strokes are dots, (n,); sizes (n,) page units are the strokes' diagonals."""
-    still = sizes == 0
     if len(ink) == 1:
-        lasted = _seconds(ink[0])
+        lasted, size = _seconds(ink[0]), float(sizes[0])
         brief = len(ink[0]) <= rule.lone_points if lasted is None else lasted <= rule.lone_time
-        return still | ((sizes <= rule.lone_size) & brief)
+        return np.array([size == 0 or (size <= rule.lone_size and brief)])
+    still = sizes == 0
     quick = np.array([(_seconds(stroke) or 0.0) <= rule.dot_time for stroke in ink])
     drawn = sizes[~still]
     if len(drawn) == 0:
@@ -117,11 +133,11 @@ def dots(ink: Ink, sizes: FloatArray, rule: GestureRule = GESTURES) -> NDArray[n
     return still | (quick & (sizes <= limit))
 
 
-def is_scribble(stroke: Stroke, earlier: list[Stroke], rule: GestureRule = GESTURES) -> bool:
+def is_scribble(
+    stroke: Stroke, swings: Teeth, earlier: list[Stroke], rule: GestureRule = GESTURES
+) -> bool:
     """Whether the stroke goes to and fro over one of the earlier strokes."""
-    path = unit_path(stroke)
-    found = teeth(spaced(path))
-    if found.legs < rule.swings or found.pitch > rule.dense * found.height:
+    if swings.legs < rule.swings or swings.pitch > rule.dense * swings.height:
         return False
     line = shapely.LineString(stroke.points)
     lines = [shapely.LineString(other.points) for other in earlier if len(other) > 1]
@@ -129,18 +145,18 @@ def is_scribble(stroke: Stroke, earlier: list[Stroke], rule: GestureRule = GESTU
     return bool((crossed >= rule.hits).any())
 
 
-def _angular(stroke: Stroke, polygon: bool, rule: GestureRule = GESTURES) -> bool:
-    """Whether what looks like a polygon has corners too."""
+def _angular(stroke: Stroke, look: Seen, rule: GestureRule) -> bool:
+    """Whether what is clearly a polygon has corners too."""
+    polygon = float(look.beliefs[POLYGON]) > rule.clear
     return polygon and len(corners(stroke.points, stroke.times)) >= rule.corners
 
 
-def enclosed(stroke: Stroke, earlier: list[Stroke], rule: GestureRule = GESTURES) -> list[bool]:
+def enclosed(
+    stroke: Stroke, outline: Ring | None, earlier: list[Stroke], rule: GestureRule = GESTURES
+) -> list[bool]:
     """Which of the earlier strokes the stroke closes round."""
     nothing = [False] * len(earlier)
-    if not earlier or len(stroke) < 3:
-        return nothing
-    outline = ring(resample(unit_path(stroke), 48))
-    if outline is None or outline.gap > rule.gap or outline.loose > rule.loose:
+    if not earlier or outline is None or outline.gap > rule.gap or outline.loose > rule.loose:
         return nothing
     inside = shapely.Polygon(stroke.points)
     shapely.prepare(inside)
@@ -149,7 +165,3 @@ def enclosed(stroke: Stroke, earlier: list[Stroke], rule: GestureRule = GESTURES
 
 def _seconds(stroke: Stroke) -> float | None:
     return None if stroke.times is None else float(stroke.times[-1] - stroke.times[0])
-
-
-def _box(stroke: Stroke) -> FloatArray:
-    return np.concatenate([stroke.points.min(axis=0), stroke.points.max(axis=0)])

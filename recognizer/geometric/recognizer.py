@@ -15,11 +15,10 @@ import numpy as np
 from recognizer.claims import Claim, claim_for
 from recognizer.geometric.context import gestures
 from recognizer.geometric.heads import pieced_arrows
-from recognizer.geometric.rules import evidence
+from recognizer.geometric.rules import seen
 from recognizer.geometric.symbols import attached, signs
 from recognizer.group import chains
-from recognizer.preprocess import unit_path
-from sketch.ink import FloatArray, Ink, Stroke
+from sketch.ink import FloatArray, Ink, Stroke, readonly
 from sketch.page import STROKE_KINDS, StrokeKind
 
 
@@ -35,8 +34,6 @@ class Confidence:
     """Evidence, at least, of any kind: hands do what no rule foresees once in some thousand strokes."""
     reject: float = 0.45
     """Below this confidence the stroke is rejected: two kinds are then about equally likely."""
-    clear: float = log(0.5)
-    """Evidence from which a stroke is clearly of a kind: more likely than not, taken by itself."""
     sign: float = log(0.8)
     """Belief, its logarithm, in a sign where straight strokes cross on no shape: a wire that crosses another is
     as rare as people are careful."""
@@ -56,6 +53,10 @@ SIDES: tuple[StrokeKind, ...] = ("wire", "math", "circle", "polygon")
 """What sides of an outline may be taken for alone."""
 
 
+NOTHING = readonly(np.zeros(len(STROKE_KINDS)))
+"""The evidence from a pen that never moved."""
+
+
 class Geometric:
     """The geometric rival. It uses the page for gestures only."""
 
@@ -64,9 +65,9 @@ class Geometric:
 
     def recognize(self, ink: Ink) -> tuple[Claim, ...]:
         """One claim a stroke, with a softmax of its evidence as scores."""
-        alone = [weigh(stroke) for stroke in ink]
-        polygons = [float(row[STROKE_KINDS.index("polygon")]) > CONFIDENCE.clear for row in alone]
-        found = gestures(ink, polygons)
+        looks = [seen(stroke.points) for stroke in ink]
+        alone = [NOTHING if look is None else look.beliefs for look in looks]
+        found = gestures(ink, looks)
         rows = together(ink, alone, [index for index, gesture in enumerate(found) if gesture is None])
         return tuple(
             claim(row) if gesture is None else claim_for(gesture, CONFIDENCE.gesture)
@@ -117,13 +118,14 @@ def made(kind: StrokeKind, belief: float, row: FloatArray) -> FloatArray:
 
 def weigh(stroke: Stroke) -> FloatArray:
     """The evidence for each kind from one stroke seen alone, (9,); none from a pen that never moved."""
-    path = unit_path(stroke)
-    return evidence(path) if len(path) > 1 else np.zeros(len(STROKE_KINDS))
+    look = seen(stroke.points)
+    return NOTHING if look is None else look.beliefs
 
 
 def claim(row: FloatArray, rule: Confidence = CONFIDENCE) -> Claim:
     """Softmax of the evidence."""
-    heard = np.maximum(row, row.max() + rule.surprise)
-    scores = np.exp((heard - heard.max()) / rule.temperature)
-    scores /= scores.sum()
-    return Claim(scores, rejected=bool(scores.max() < rule.reject))
+    beliefs: list[float] = row.tolist()
+    best = max(beliefs)
+    shares = [exp(max(belief - best, rule.surprise) / rule.temperature) for belief in beliefs]
+    total = sum(shares)
+    return Claim([share / total for share in shares], rejected=bool(1 / total < rule.reject))

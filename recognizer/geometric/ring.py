@@ -6,11 +6,11 @@ Frame: a path whose bounding box has a diagonal of 1 (lengths are fractions of t
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import hypot, pi, sqrt
+from math import pi, sqrt
 
 import numpy as np
 
-from recognizer.geometric.kernels.rings import closing_pair, moments_of, ring_of, stray_of
+from recognizer.geometric.kernels.rings import closing_pair, moments_of, ring_of
 from sketch.ink import FloatArray
 
 
@@ -64,13 +64,14 @@ class Ring:
 def ring(path: FloatArray, rule: RingRule = RING) -> Ring | None:
     """The closed outline within a path of equally spaced points (n, 2); None where nothing is
     enclosed, or the ends stay apart."""
-    path = np.ascontiguousarray(path)
-    first, last = closing_points(path, rule)
-    gap = hypot(*(path[first] - path[last]).tolist())
-    if gap > rule.open:
-        return None
-    encloses, points, area, perimeter, roundness, aspect, wrong_way, crosses = ring_of(
-        path, first, last, rule.points, rule.coarse, rule.seam
+    encloses, points, first, last, gap, loose, area, perimeter, roundness, aspect, wrong_way, crosses = ring_of(
+        np.ascontiguousarray(path),
+        _reach(path, rule),
+        rule.patience,
+        rule.open,
+        rule.points,
+        rule.coarse,
+        rule.seam,
     )
     if not encloses:
         return None
@@ -79,7 +80,7 @@ def ring(path: FloatArray, rule: RingRule = RING) -> Ring | None:
         first=first,
         last=last,
         gap=gap,
-        loose=stray_of(path, first, last),
+        loose=loose,
         area=area,
         roundness=roundness,
         radius=sqrt(area / pi),
@@ -92,8 +93,11 @@ def ring(path: FloatArray, rule: RingRule = RING) -> Ring | None:
 
 def closing_points(path: FloatArray, rule: RingRule = RING) -> tuple[int, int]:
     """Indices near the two ends between which the outline closes best."""
-    reach = max(round(rule.overlap * (len(path) - 1)), 1)
-    return closing_pair(np.ascontiguousarray(path), reach, rule.patience)
+    return closing_pair(np.ascontiguousarray(path), _reach(path, rule), rule.patience)
+
+
+def _reach(path: FloatArray, rule: RingRule) -> int:
+    return max(round(rule.overlap * (len(path) - 1)), 1)
 
 
 def area_moments(vertices: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -17,12 +17,12 @@ import numpy as np
 from recognizer.geometric.arrows import head
 from recognizer.geometric.bounds import Bound
 from recognizer.geometric.heads import head_evidence
-from recognizer.geometric.kernels.paths import extent_of, length_of, line_rms, resampled
+from recognizer.geometric.kernels.paths import prepared, straightness
 from recognizer.geometric.kernels.rings import turning_shares
 from recognizer.geometric.legs import best_legs
 from recognizer.geometric.ring import Ring, ring
 from recognizer.geometric.teeth import Teeth, teeth
-from recognizer.preprocess import points_for
+from recognizer.preprocess import SPACING
 from sketch.ink import FloatArray
 from sketch.page import STROKE_KINDS, StrokeKind
 
@@ -132,31 +132,41 @@ class Rules:
 RULES = Rules()
 
 
-def evidence(path: FloatArray, rules: Rules = RULES) -> FloatArray:
-    """Logarithm of the belief in each of `STROKE_KINDS` for a unit path of at least two points, (9,).
+@dataclass(frozen=True, slots=True, eq=False)
+class Seen:
+    """One stroke seen alone. beliefs: logarithms of the belief in each of `STROKE_KINDS`, (9,); swings and outline: what the
+    beliefs in springs, scribbles and closed shapes rest on, and gestures too; outline is None where nothing is enclosed."""
 
-    A tap depends on what else is on the page: it gets `rules.never` here.
+    beliefs: FloatArray
+    swings: Teeth
+    outline: Ring | None
+
+
+def seen(points: FloatArray, rules: Rules = RULES) -> Seen | None:
+    """What a stroke of points (n, 2) looks like by itself; None where the pen never moved.
+
+    A tap depends on what else is on the page: `rules.never` is believed of it here.
     """
-    points = resampled(path, rules.points)
-    outline = ring(points)
-    found = teeth(evenly(path))
+    path, finely = prepared(
+        np.ascontiguousarray(points), rules.points, SPACING.step, SPACING.fewest, SPACING.most
+    )
+    if len(path) == 0:
+        return None
+    outline = ring(path)
+    swings = teeth(finely)
     beliefs: dict[StrokeKind, float] = {
-        "spring": spring_evidence(points, found, rules),
-        "wire": wire_evidence(points, found, rules),
-        "scribble": scribble_evidence(found, rules),
+        "spring": spring_evidence(path, swings, rules),
+        "wire": wire_evidence(path, swings, rules),
+        "scribble": scribble_evidence(swings, rules),
         "math": rules.otherwise,
     }
-    beliefs["arrow"] = max(arrow_evidence(points, rules), arrow_evidence(points[::-1], rules))
+    beliefs["arrow"] = max(arrow_evidence(path, rules), arrow_evidence(path[::-1], rules))
     # A small head hardly bends a line: whatever is believed of an arrow is not believed of a wire.
     beliefs["wire"] += log1p(-exp(beliefs["arrow"]))
     if outline is not None:
         beliefs |= outline_evidence(outline, rules)
-    return np.array([max(beliefs.get(kind, rules.never), rules.never) for kind in STROKE_KINDS])
-
-
-def evenly(path: FloatArray) -> FloatArray:
-    """`recognizer.preprocess.spaced`, in a compiled loop."""
-    return resampled(path, points_for(length_of(path)))
+    row = np.array([max(beliefs.get(kind, rules.never), rules.never) for kind in STROKE_KINDS])
+    return Seen(row, swings, outline)
 
 
 def outline_evidence(outline: Ring, rules: Rules = RULES) -> dict[StrokeKind, float]:
@@ -221,12 +231,11 @@ def scribble_evidence(found: Teeth, rules: Rules = RULES) -> float:
 
 def wire_evidence(points: FloatArray, found: Teeth, rules: Rules = RULES) -> float:
     """Belief in a wire: straight, apart from a hook at either end."""
-    hooked = round(rules.hook * len(points))
-    deviation = min(rms_from_line(points), rms_from_line(points[hooked:-hooked]))
+    deviation, retraced = straightness(points, round(rules.hook * len(points)))
     small_teeth = rules.legs.below(found.legs) if found.height > 0.05 else 0.0
     return (
         rules.straight.below(deviation)
-        + rules.retraced.below(length_of(points) / extent_of(points))
+        + rules.retraced.below(retraced)
         + small_teeth
     )
 
@@ -247,8 +256,3 @@ def arrow_evidence(points: FloatArray, rules: Rules = RULES) -> float:
     )
     by_itself = head_evidence(points[: found.tip + 1], [points[found.tip :]]) + rules.by_itself
     return max(by_shaft, by_itself)
-
-
-def rms_from_line(points: FloatArray) -> float:
-    """Root mean square distance of points (n, 2) from their best line."""
-    return line_rms(np.ascontiguousarray(points))

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from data_gen import ideals
 from recognizer.geometric.crossings import crossings
 from recognizer.geometric.cusps import cusps
+from recognizer.geometric.kernels.paths import line_rms
 from recognizer.geometric.legs import best_legs, leg_errors
 from recognizer.geometric.ring import area_moments, closing_points, ring
-from recognizer.geometric.rules import rms_from_line
 from recognizer.geometric.teeth import swings, teeth
 from recognizer.preprocess import SPACING, spaced, unit_path
 from sketch.geometry import diagonal, resample, self_intersections
@@ -99,7 +99,7 @@ def test_leg_errors_are_those_of_the_best_line_through_each_run(seed: int) -> No
     path = wander(seed, 20)
     errors = leg_errors(path)
     for i, j in ((0, 19), (3, 9), (12, 14)):
-        assert errors[i, j] == pytest.approx(rms_from_line(path[i : j + 1]) ** 2 * (j - i + 1), abs=1e-8)
+        assert errors[i, j] == pytest.approx(line_rms(path[i : j + 1]) ** 2 * (j - i + 1), abs=1e-8)
 
 
 @given(st.floats(0.3, 1.0), st.floats(0, 3.1), st.floats(0, 6.2))

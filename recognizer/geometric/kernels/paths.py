@@ -62,6 +62,39 @@ def extent_of(points: FloatArray) -> float:
 
 
 @kernel
+def prepared(
+    points: FloatArray, count: int, step: float, fewest: int, most: int
+) -> tuple[FloatArray, FloatArray]:
+    """A stroke moved and scaled to a bounding box from (0, 0) with a diagonal of 1, as `count` points at equal spacing, and as
+    points about `step` apart, between `fewest` and `most` of them: `recognizer.preprocess`. Empty where the pen never moved."""
+    n = len(points)
+    low_x = high_x = points[0, 0]
+    low_y = high_y = points[0, 1]
+    farthest = 0.0
+    for i in range(n):
+        low_x, high_x = min(low_x, points[i, 0]), max(high_x, points[i, 0])
+        low_y, high_y = min(low_y, points[i, 1]), max(high_y, points[i, 1])
+        farthest = max(farthest, abs(points[i, 0]), abs(points[i, 1]))
+    size = hypot(high_x - low_x, high_y - low_y)
+    if size <= 1e-12 * farthest:
+        return np.empty((0, 2)), np.empty((0, 2))
+    unit = np.empty((n, 2))
+    for i in range(n):
+        unit[i, 0], unit[i, 1] = (points[i, 0] - low_x) / size, (points[i, 1] - low_y) / size
+    length = length_of(unit)
+    finely = min(max(round(length / step) + 1, fewest), most)
+    return resampled(unit, count), resampled(unit, finely)
+
+
+@kernel
+def straightness(points: FloatArray, hook: int) -> tuple[float, float]:
+    """Root mean square distance of points from their best line, the lesser of all of them and without `hook` at either end;
+    and the path's length over its extent."""
+    deviation = min(line_rms(points), line_rms(points[hook : len(points) - hook]))
+    return deviation, length_of(points) / extent_of(points)
+
+
+@kernel
 def bend_angles(points: FloatArray, reach: int) -> FloatArray:
     """Signed angle between the chords that lead `reach` points to and from each point, (n,)."""
     n = len(points)

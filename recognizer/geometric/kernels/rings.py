@@ -64,17 +64,21 @@ def stray_of(path: FloatArray, first: int, last: int) -> float:
 
 @kernel
 def ring_of(
-    path: FloatArray, first: int, last: int, count: int, coarse: int, seam: float
-) -> tuple[bool, FloatArray, float, float, float, float, float, int]:
-    """The outline path[first : last + 1] closed on `count` + 1 points, begun where it lies farthest out: whether
-    it encloses anything, the points, area, perimeter, roundness, aspect, share of wrong turning on every
-    `count // coarse`-th point, crossings away from the seam: see `Ring`."""
+    path: FloatArray, reach: int, patience: float, widest: float, count: int, coarse: int, seam: float
+) -> tuple[bool, FloatArray, int, int, float, float, float, float, float, float, float, int]:
+    """The outline that a path closes, on `count` + 1 points, begun where it lies farthest out: whether its ends come within
+    `widest` and it encloses anything, the points, first, last, gap, stray, area, perimeter, roundness, aspect, share of wrong
+    turning on every `count // coarse`-th point, crossings away from the seam: see `Ring`."""
+    first, last = closing_pair(path, reach, patience)
+    gap = hypot(path[first, 0] - path[last, 0], path[first, 1] - path[last, 1])
+    if gap > widest:
+        return False, path, first, last, gap, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0
     outline = np.concatenate((path[first : last + 1], path[first : first + 1]))
     closed = resampled(outline, count + 1)
     closed[-1] = closed[0]
     perimeter = length_of(closed)
     area, cx, cy, xx, xy, yy = moments_of(closed[:-1])
-    nothing = (False, closed, 0.0, perimeter, 0.0, 0.0, 0.0, 0)
+    nothing = (False, closed, first, last, gap, 0.0, 0.0, perimeter, 0.0, 0.0, 0.0, 0)
     if perimeter == 0 or not abs(area) >= 1e-6 * perimeter**2:
         return nothing
     half, rest = 0.5 * (xx + yy), hypot(0.5 * (xx - yy), xy)
@@ -109,6 +113,10 @@ def ring_of(
     return (
         True,
         begun,
+        first,
+        last,
+        gap,
+        stray_of(path, first, last),
         abs(area),
         perimeter,
         roundness,
