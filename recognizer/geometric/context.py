@@ -42,6 +42,9 @@ class GestureRule:
     """Seconds a lone tap lasts, at most: the quickest line takes as long."""
     lone_points: int = 5
     """Points of a lone tap, at most, where times are not known: small ink in other units has more."""
+    joint: float = 0.6
+    """Gaps between a short side and the ends of the sides that it joins, over its length, at most: corners of planks are
+    missed by half of the plank's thickness."""
     swings: int = 5
     """Legs of a scribble: a pen that erases goes there and back at least twice."""
     dense: float = 0.5
@@ -85,6 +88,7 @@ def gestures(
     tiny = dots(ink, sizes, rule)
     if len(ink) == 1:
         return ["tap" if tiny[0] else None]
+    tiny[_sides(ink, tiny, sizes, rule)] = False
     covered = shapely.box(*boxes.T)
     drawn = np.flatnonzero(~tiny)
     if len(drawn) < len(ink):
@@ -99,6 +103,21 @@ def gestures(
         look = looks[index]
         if look is not None:
             found[index] = _gesture(ink, index, look, sorted(others)[-rule.looked_at :], sizes, rule)
+    return found
+
+
+def _sides(ink: Ink, tiny: NDArray[np.bool_], sizes: FloatArray, rule: GestureRule) -> list[int]:
+    """Those of the tiny strokes that lead from one longer stroke's end to another's: the short side of a plank."""
+    small = [index for index in np.flatnonzero(tiny).tolist() if sizes[index] > 0]
+    ends = np.array([ink[index].points[end] for index in np.flatnonzero(~tiny).tolist() for end in (0, -1)])
+    if not small or len(ends) < 2:
+        return []
+    found: list[int] = []
+    for index in small:
+        first, last = (np.hypot(*(ends - ink[index].points[end]).T) for end in (0, -1))
+        here, there = int(first.argmin()), int(last.argmin())
+        if here != there and max(first[here], last[there]) <= rule.joint * sizes[index]:
+            found.append(index)
     return found
 
 

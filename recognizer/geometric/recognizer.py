@@ -15,6 +15,7 @@ import numpy as np
 from recognizer.claims import Claim, claim_for
 from recognizer.geometric.context import gestures
 from recognizer.geometric.heads import pieced_arrows
+from recognizer.geometric.letters import marks, too_large
 from recognizer.geometric.rules import seen
 from recognizer.geometric.symbols import attached, signs
 from recognizer.group import chains
@@ -37,6 +38,11 @@ class Confidence:
     sign: float = log(0.8)
     """Belief, its logarithm, in a sign where straight strokes cross on no shape: a wire that crosses another is
     as rare as people are careful."""
+    large: float = log(0.2)
+    """Added to the evidence for mathematics where a closed stroke is far larger than the page's letters: one in five at
+    most is a great O or a box about a result."""
+    closed: float = 2.0
+    """What an outline's evidence may lack of that for mathematics to be thought of as one."""
     window: int = 256
     """Strokes in drawing order that are looked at together, more than a page of mathematics has: what belongs
     together was drawn together, and a heap of 10,000 strokes stays a matter of seconds."""
@@ -53,6 +59,8 @@ SIDES: tuple[StrokeKind, ...] = ("wire", "math", "circle", "polygon")
 """What sides of an outline may be taken for alone."""
 
 
+MATH = STROKE_KINDS.index("math")
+OUTLINES = tuple(STROKE_KINDS.index(kind) for kind in ("circle", "polygon", "lasso"))
 NOTHING = readonly(np.zeros(len(STROKE_KINDS)))
 """The evidence from a pen that never moved."""
 
@@ -90,6 +98,11 @@ def _look_around(ink: Ink, rows: list[FloatArray], drawn: Sequence[int]) -> None
     if len(drawn) < 2:
         return
     best = {index: STROKE_KINDS[int(np.argmax(rows[index]))] for index in drawn}
+    letters = [i for i in drawn if best[i] == "math"]
+    for index in too_large(ink, [i for i in drawn if _closed(rows[i])], letters):
+        rows[index] = rows[index].copy()
+        rows[index][MATH] += CONFIDENCE.large
+        best[index] = STROKE_KINDS[int(np.argmax(rows[index]))]
     sides = {side for chain in chains(ink, [i for i in drawn if best[i] in SIDES]) for side in chain}
     outlines = [i for i in drawn if best[i] in ("circle", "polygon") or i in sides]
     open_ended = [i for i in drawn if best[i] in SHAFTS and i not in sides]
@@ -97,14 +110,23 @@ def _look_around(ink: Ink, rows: list[FloatArray], drawn: Sequence[int]) -> None
     arrows = pieced_arrows(
         ink, [i for i in open_ended if ends.get(i, 0) < 2], [i for i in outlines if best[i] == "polygon"]
     )
+    paired = {index for arrow in arrows for index in arrow.strokes}
     for arrow in arrows:
         for index in arrow.strokes:
             rows[index] = made("arrow", arrow.belief, rows[index])
             best[index] = "arrow"
+    for index in marks(ink, [i for i in open_ended if best[i] == "arrow" and i not in paired], letters):
+        rows[index] = made("math", CONFIDENCE.sign, rows[index])
+        best[index] = "math"
     free = [i for i in open_ended if i not in ends]
     straight, letters = ([i for i in free if best[i] == kind] for kind in ("wire", "math"))
     for index in signs(ink, straight, letters):
         rows[index] = made("math", CONFIDENCE.sign, rows[index])
+
+
+def _closed(row: FloatArray) -> bool:
+    """Whether a stroke closes an outline of whatever shape, as likely as that it is a letter."""
+    return max(row[k] for k in OUTLINES) > row[MATH] - CONFIDENCE.closed
 
 
 def made(kind: StrokeKind, belief: float, row: FloatArray) -> FloatArray:
