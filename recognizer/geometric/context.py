@@ -152,9 +152,7 @@ def dots(ink: Ink, sizes: FloatArray, rule: GestureRule = GESTURES) -> NDArray[n
     return still | (quick & (sizes <= limit))
 
 
-def is_scribble(
-    stroke: Stroke, swings: Teeth, earlier: list[Stroke], rule: GestureRule = GESTURES
-) -> bool:
+def is_scribble(stroke: Stroke, swings: Teeth, earlier: list[Stroke], rule: GestureRule = GESTURES) -> bool:
     """Whether the stroke goes to and fro over one of the earlier strokes."""
     if swings.legs < rule.swings or swings.pitch > rule.dense * swings.height:
         return False

@@ -130,7 +130,9 @@ def pieces(path: FloatArray, slow: FloatArray, rule: CornerRule = CORNERS) -> li
         path, rule.price - rule.rest * rested, 0.5 / rule.waver**2, rule.arc, rule.tightest, rule.widest
     )
     rows = described(path, ends, bent).tolist()
-    return [Piece(first, last, *row) for (first, last), row in zip(pairwise(ends.tolist()), rows, strict=True)]
+    return [
+        Piece(first, last, *row) for (first, last), row in zip(pairwise(ends.tolist()), rows, strict=True)
+    ]
 
 
 def turns(path: FloatArray, found: list[Piece], slow: FloatArray, rule: CornerRule = CORNERS) -> list[int]:

@@ -33,9 +33,7 @@ class LetterRule:
 LETTERS = LetterRule()
 
 
-def marks(
-    ink: Ink, pointing: Sequence[int], letters: Sequence[int], rule: LetterRule = LETTERS
-) -> list[int]:
+def marks(ink: Ink, pointing: Sequence[int], letters: Sequence[int], rule: LetterRule = LETTERS) -> list[int]:
     """Those of the strokes that look like arrows but are marks among the letters' strokes: an x below a v."""
     if not pointing or len(letters) < rule.fewest:
         return []

@@ -17,6 +17,7 @@ from recognizer.geometric.context import gestures
 from recognizer.geometric.heads import pieced_arrows
 from recognizer.geometric.letters import marks, too_large
 from recognizer.geometric.rules import seen
+from recognizer.geometric.strangers import familiarity, is_stranger
 from recognizer.geometric.symbols import attached, signs
 from recognizer.group import chains
 from sketch.ink import FloatArray, Ink, Stroke, readonly
@@ -77,10 +78,18 @@ class Geometric:
         alone = [NOTHING if look is None else look.beliefs for look in looks]
         found = gestures(ink, looks)
         rows = together(ink, alone, [index for index, gesture in enumerate(found) if gesture is None])
+        # What others on the page make of a stroke is explained by them; only what stands by itself may be a stranger.
         return tuple(
-            claim(row) if gesture is None else claim_for(gesture, CONFIDENCE.gesture)
-            for row, gesture in zip(rows, found, strict=True)
+            claim_for(gesture, CONFIDENCE.gesture)
+            if gesture is not None
+            else claim(row, stranger=row is own and look is not None and is_stranger(look))
+            for row, own, look, gesture in zip(rows, alone, looks, found, strict=True)
         )
+
+    def strangeness(self, drawings: Sequence[Ink]) -> FloatArray:
+        """How much each drawing looks like none of the kinds, (B,): that of its strangest stroke, each seen alone. The
+        scale is the logarithm of a belief."""
+        return np.array([max((_strangeness(stroke) for stroke in ink), default=0.0) for ink in drawings])
 
 
 def together(ink: Ink, alone: Sequence[FloatArray], drawn: Sequence[int]) -> list[FloatArray]:
@@ -144,10 +153,15 @@ def weigh(stroke: Stroke) -> FloatArray:
     return NOTHING if look is None else look.beliefs
 
 
-def claim(row: FloatArray, rule: Confidence = CONFIDENCE) -> Claim:
-    """Softmax of the evidence."""
+def _strangeness(stroke: Stroke) -> float:
+    look = seen(stroke.points)
+    return 0.0 if look is None else -familiarity(look)
+
+
+def claim(row: FloatArray, stranger: bool = False, rule: Confidence = CONFIDENCE) -> Claim:
+    """Softmax of the evidence; rejected where two kinds are about equally likely, and a stranger."""
     beliefs: list[float] = row.tolist()
     best = max(beliefs)
     shares = [exp(max(belief - best, rule.surprise) / rule.temperature) for belief in beliefs]
     total = sum(shares)
-    return Claim([share / total for share in shares], rejected=bool(1 / total < rule.reject))
+    return Claim([share / total for share in shares], rejected=stranger or 1 / total < rule.reject)

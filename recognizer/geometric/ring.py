@@ -64,14 +64,16 @@ class Ring:
 def ring(path: FloatArray, rule: RingRule = RING) -> Ring | None:
     """The closed outline within a path of equally spaced points (n, 2); None where nothing is
     enclosed, or the ends stay apart."""
-    encloses, points, first, last, gap, loose, area, perimeter, roundness, aspect, wrong_way, crosses = ring_of(
-        np.ascontiguousarray(path),
-        _reach(path, rule),
-        rule.patience,
-        rule.open,
-        rule.points,
-        rule.coarse,
-        rule.seam,
+    encloses, points, first, last, gap, loose, area, perimeter, roundness, aspect, wrong_way, crosses = (
+        ring_of(
+            np.ascontiguousarray(path),
+            _reach(path, rule),
+            rule.patience,
+            rule.open,
+            rule.points,
+            rule.coarse,
+            rule.seam,
+        )
     )
     if not encloses:
         return None

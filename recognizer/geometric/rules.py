@@ -134,9 +134,12 @@ RULES = Rules()
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Seen:
-    """One stroke seen alone. beliefs: logarithms of the belief in each of `STROKE_KINDS`, (9,); swings and outline: what the
+    """One stroke seen alone. path, finely: its points at equal spacing, (64, 2) and (n, 2), the diagonal of its box 1;
+    beliefs: logarithms of the belief in each of `STROKE_KINDS`, (9,); swings and outline: what the
     beliefs in springs, scribbles and closed shapes rest on, and gestures too; outline is None where nothing is enclosed."""
 
+    path: FloatArray
+    finely: FloatArray
     beliefs: FloatArray
     swings: Teeth
     outline: Ring | None
@@ -166,7 +169,7 @@ def seen(points: FloatArray, rules: Rules = RULES) -> Seen | None:
     if outline is not None:
         beliefs |= outline_evidence(outline, rules)
     row = np.array([max(beliefs.get(kind, rules.never), rules.never) for kind in STROKE_KINDS])
-    return Seen(row, swings, outline)
+    return Seen(path, finely, row, swings, outline)
 
 
 def outline_evidence(outline: Ring, rules: Rules = RULES) -> dict[StrokeKind, float]:
@@ -233,11 +236,7 @@ def wire_evidence(points: FloatArray, found: Teeth, rules: Rules = RULES) -> flo
     """Belief in a wire: straight, apart from a hook at either end."""
     deviation, retraced = straightness(points, round(rules.hook * len(points)))
     small_teeth = rules.legs.below(found.legs) if found.height > 0.05 else 0.0
-    return (
-        rules.straight.below(deviation)
-        + rules.retraced.below(retraced)
-        + small_teeth
-    )
+    return rules.straight.below(deviation) + rules.retraced.below(retraced) + small_teeth
 
 
 def arrow_evidence(points: FloatArray, rules: Rules = RULES) -> float:

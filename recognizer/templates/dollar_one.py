@@ -10,17 +10,15 @@ circles from ellipses, the sense of drawing matters, and straight lines are scal
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import pi, sqrt
 
 import numpy as np
 
 from recognizer.jit import kernel
 from recognizer.templates.points import (
-    IntArray,
+    Compared,
     as_one_stroke,
     box_sides,
-    by_label,
     centred,
     indicative_angle,
     positive,
@@ -36,25 +34,6 @@ REACH = pi / 4
 FINE = pi / 90
 """the search stops when it knows the best to within this."""
 GOLDEN = (sqrt(5.0) - 1.0) / 2.0
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class DollarOne:
-    """templates: (T, 64, 2) normalised; labels: (T,)."""
-
-    templates: FloatArray
-    labels: IntArray
-
-    @classmethod
-    def of(cls, templates: Sequence[Ink], labels: IntArray) -> DollarOne:
-        return cls(normalised(templates), labels)
-
-    def nearest(self, drawings: Sequence[Ink]) -> FloatArray:
-        return by_label(self.distances(drawings), self.labels)
-
-    def distances(self, drawings: Sequence[Ink]) -> FloatArray:
-        """To every template, (B, T)."""
-        return _distances(normalised(drawings), self.templates)
 
 
 def normalised(drawings: Sequence[Ink]) -> FloatArray:
@@ -101,3 +80,15 @@ def _at_angle(drawing: FloatArray, template: FloatArray, angle: float) -> float:
         y = sin * drawing[k, 0] + cos * drawing[k, 1] - template[k, 1]
         total += np.sqrt(x * x + y * y)
     return total / len(drawing)
+
+
+class DollarOne(Compared):
+    """Drawings as the paper's steps 1 to 3 leave them, point by point at the best angle."""
+
+    @staticmethod
+    def described(drawings: Sequence[Ink]) -> FloatArray:
+        return normalised(drawings)
+
+    @staticmethod
+    def apart(drawings: FloatArray, templates: FloatArray) -> FloatArray:
+        return _distances(drawings, templates)

@@ -9,36 +9,16 @@ which cloud gives. The paper calls it Greedy-5, ε = 0.5.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from recognizer.jit import kernel
-from recognizer.templates.points import IntArray, as_cloud, box_sides, by_label, centred, positive
+from recognizer.templates.points import Compared, as_cloud, box_sides, centred, positive
 from sketch.ink import FloatArray, Ink
 
 POINTS = 32
 STRIDE = 5
 """From one starting point to the next: ⌊n^(1 − ε)⌋ with ε = 0.5."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class DollarP:
-    """templates: (T, 32, 2) normalised; labels: (T,)."""
-
-    templates: FloatArray
-    labels: IntArray
-
-    @classmethod
-    def of(cls, templates: Sequence[Ink], labels: IntArray) -> DollarP:
-        return cls(normalised(templates), labels)
-
-    def nearest(self, drawings: Sequence[Ink]) -> FloatArray:
-        return by_label(self.distances(drawings), self.labels)
-
-    def distances(self, drawings: Sequence[Ink]) -> FloatArray:
-        """To every template, (B, T)."""
-        return _distances(normalised(drawings), self.templates)
 
 
 def normalised(drawings: Sequence[Ink]) -> FloatArray:
@@ -81,3 +61,15 @@ def _given(cloud: FloatArray, other: FloatArray, start: int, enough: float) -> f
         if total >= enough:
             break
     return total
+
+
+class DollarP(Compared):
+    """Clouds, the points of one given to those of the other."""
+
+    @staticmethod
+    def described(drawings: Sequence[Ink]) -> FloatArray:
+        return normalised(drawings)
+
+    @staticmethod
+    def apart(drawings: FloatArray, templates: FloatArray) -> FloatArray:
+        return _distances(drawings, templates)

@@ -8,28 +8,23 @@ looked past, scale and place are nowhere. Distance: 1 less the mean dot product,
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from recognizer.templates.points import IntArray, as_one_stroke, by_label, directions
+from recognizer.templates.points import Compared, as_one_stroke, directions
 from sketch.ink import FloatArray, Ink
 
 POINTS = 16
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class PennyPincher:
-    """templates: (T, 15, 2) unit vectors; labels: (T,)."""
+class PennyPincher(Compared):
+    """Unit vectors, and 1 less their mean dot product."""
 
-    templates: FloatArray
-    labels: IntArray
+    @staticmethod
+    def described(drawings: Sequence[Ink]) -> FloatArray:
+        return directions(as_one_stroke(drawings, POINTS))
 
-    @classmethod
-    def of(cls, templates: Sequence[Ink], labels: IntArray) -> PennyPincher:
-        return cls(directions(as_one_stroke(templates, POINTS)), labels)
-
-    def nearest(self, drawings: Sequence[Ink]) -> FloatArray:
-        vectors = directions(as_one_stroke(drawings, POINTS))
-        alike = np.tensordot(vectors, self.templates, axes=([1, 2], [1, 2])) / (POINTS - 1)
-        return by_label(np.maximum(1.0 - alike, 0.0), self.labels)
+    @staticmethod
+    def apart(drawings: FloatArray, templates: FloatArray) -> FloatArray:
+        alike = np.tensordot(drawings, templates, axes=([1, 2], [1, 2])) / (POINTS - 1)
+        return np.maximum(1.0 - alike, 0.0)

@@ -5,7 +5,9 @@ Frame: page units, y down, as the pen left it; each matcher moves, turns and sca
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Protocol, Self
 
 import numpy as np
@@ -28,6 +30,36 @@ class Matcher(Protocol):
     def nearest(self, drawings: Sequence[Ink]) -> FloatArray:
         """The distance of B drawings to the nearest template of each label, (B, K), 0 or more."""
         ...
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Compared(ABC):
+    """A matcher that compares a drawing, described by points, with every template alike. templates: (T, n, 2) described;
+    labels: (T,)."""
+
+    templates: FloatArray
+    labels: IntArray
+
+    @staticmethod
+    @abstractmethod
+    def described(drawings: Sequence[Ink]) -> FloatArray:
+        """Drawings as the paper compares them, (B, n, 2)."""
+
+    @staticmethod
+    @abstractmethod
+    def apart(drawings: FloatArray, templates: FloatArray) -> FloatArray:
+        """The distance of every described drawing to every template, (B, T)."""
+
+    @classmethod
+    def of(cls, templates: Sequence[Ink], labels: IntArray) -> Self:
+        return cls(cls.described(templates), labels)
+
+    def nearest(self, drawings: Sequence[Ink]) -> FloatArray:
+        return by_label(self.distances(drawings), self.labels)
+
+    def distances(self, drawings: Sequence[Ink]) -> FloatArray:
+        """To every template, (B, T)."""
+        return self.apart(self.described(drawings), self.templates)
 
 
 def as_one_stroke(drawings: Sequence[Ink], count: int) -> FloatArray:

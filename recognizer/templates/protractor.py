@@ -8,14 +8,12 @@ drawing is turned by the best angle, which has a closed form; radians.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from recognizer.templates.points import (
-    IntArray,
+    Compared,
     as_one_stroke,
-    by_label,
     centred,
     indicative_angle,
     positive,
@@ -24,21 +22,6 @@ from recognizer.templates.points import (
 from sketch.ink import FloatArray, Ink
 
 POINTS = 16
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Protractor:
-    """templates: (T, 16, 2), each of length 1; labels: (T,)."""
-
-    templates: FloatArray
-    labels: IntArray
-
-    @classmethod
-    def of(cls, templates: Sequence[Ink], labels: IntArray) -> Protractor:
-        return cls(normalised(templates), labels)
-
-    def nearest(self, drawings: Sequence[Ink]) -> FloatArray:
-        return by_label(angles(normalised(drawings), self.templates), self.labels)
 
 
 def normalised(drawings: Sequence[Ink]) -> FloatArray:
@@ -61,3 +44,15 @@ def angles(drawings: FloatArray, templates: FloatArray) -> FloatArray:
     a = np.tensordot(drawings, templates, axes=([1, 2], [1, 2]))
     b = drawings[..., 0] @ templates[..., 1].T - drawings[..., 1] @ templates[..., 0].T
     return np.arccos(np.clip(np.copysign(np.hypot(a, b), a), -1.0, 1.0))
+
+
+class Protractor(Compared):
+    """Vectors of length 1, and the angle between them."""
+
+    @staticmethod
+    def described(drawings: Sequence[Ink]) -> FloatArray:
+        return normalised(drawings)
+
+    @staticmethod
+    def apart(drawings: FloatArray, templates: FloatArray) -> FloatArray:
+        return angles(drawings, templates)

@@ -162,3 +162,17 @@ def crossing_places(points: FloatArray) -> FloatArray:
                 found[count, 1] = j + t
                 count += 1
     return found[:count].copy()
+
+
+@kernel
+def tangle(path: FloatArray, finely: FloatArray, coarse: int, slight: float) -> tuple[float, int, float, int]:
+    """Turning of a path on `coarse` points, without regard to its sense, radians, and how often the sense changes between
+    bends of more than `slight`; length and crossings of the same path on more points."""
+    turned, changes, sense = 0.0, 0, 0.0
+    for bend in turning_angles(resampled(path, coarse)):
+        turned += abs(bend)
+        if abs(bend) > slight:
+            if sense * bend < 0:
+                changes += 1
+            sense = bend
+    return turned, changes, length_of(finely), len(crossing_places(finely))

@@ -6,7 +6,13 @@ from math import hypot, sqrt
 
 import numpy as np
 
-from recognizer.geometric.kernels.paths import crossing_places, length_of, resampled, turning_angles
+from recognizer.geometric.kernels.paths import (
+    bend_angles,
+    crossing_places,
+    length_of,
+    resampled,
+    turning_angles,
+)
 from recognizer.jit import kernel
 from sketch.ink import FloatArray
 
@@ -149,3 +155,17 @@ def turning_shares(points: FloatArray, corners: FloatArray, reach: int) -> tuple
     within = bends[near].sum()
     total = bends.sum()
     return wrong / (np.abs(turns).sum() + 1e-9), within / (total if total != 0 else 1.0)
+
+
+@kernel
+def dents(points: FloatArray, reach: int) -> tuple[float, float]:
+    """Sharpest bends of a closed outline (its last point equal to its first) in the sense in which it goes round and in the
+    other, between chords of `reach` points, radians."""
+    n = len(points) - 1
+    around = np.empty((n + 2 * reach, 2))
+    for k in range(n + 2 * reach):
+        around[k] = points[(k - reach) % n]
+    bends = bend_angles(around, reach)[reach : n + reach]
+    if bends.sum() < 0:
+        bends = -bends
+    return bends.max(), -bends.min()
