@@ -26,6 +26,8 @@ class LetterRule:
     letters that name it."""
     near: float = 0.5
     """Gap between a mark and the next letter over the letter's size, at most: half a letter, as within a word."""
+    word: float = 1.0
+    """The same between letters of one line: a letter's size, as between words."""
     large: float = 2.5
     """Size of an outline over the median letter's from which it is no letter: a capital beside an exponent is as much."""
 
@@ -35,14 +37,30 @@ LETTERS = LetterRule()
 
 def marks(ink: Ink, pointing: Sequence[int], letters: Sequence[int], rule: LetterRule = LETTERS) -> list[int]:
     """Those of the strokes that look like arrows but are marks among the letters' strokes: an x below a v."""
-    if not pointing or len(letters) < rule.fewest:
+    return _among(ink, pointing, letters, rule.small, rule.near, rule)
+
+
+def written(
+    ink: Ink, strange: Sequence[int], letters: Sequence[int], rule: LetterRule = LETTERS
+) -> list[int]:
+    """Those of the strange strokes that stand among letters and are no larger: letters of somebody's own."""
+    return _among(ink, strange, letters, rule.large, rule.word, rule)
+
+
+def _among(
+    ink: Ink, strokes: Sequence[int], letters: Sequence[int], small: float, near: float, rule: LetterRule
+) -> list[int]:
+    """Those of the strokes that are at most `small` times as large as the median letter and within `near` of its size of
+    another."""
+    if not strokes or len(letters) < rule.fewest:
         return []
-    own, boxes = boxes_of(ink, pointing), boxes_of(ink, letters)
+    own, boxes = boxes_of(ink, strokes), boxes_of(ink, letters)
     height = float(np.median(_sizes(boxes)))
     gaps = np.maximum(own[:, None, :2] - boxes[None, :, 2:], boxes[None, :, :2] - own[:, None, 2:])
-    nearest = np.hypot(*np.maximum(gaps, 0.0).transpose(2, 0, 1)).min(axis=1)
-    found = (_sizes(own) <= rule.small * height) & (nearest <= rule.near * height)
-    return [pointing[position] for position in np.flatnonzero(found).tolist()]
+    away = np.hypot(*np.maximum(gaps, 0.0).transpose(2, 0, 1))
+    away[np.equal.outer(np.asarray(strokes), np.asarray(letters))] = np.inf  # itself
+    found = (_sizes(own) <= small * height) & (away.min(axis=1) <= near * height)
+    return [strokes[position] for position in np.flatnonzero(found).tolist()]
 
 
 def too_large(

@@ -15,8 +15,8 @@ import numpy as np
 from recognizer.claims import Claim, claim_for
 from recognizer.geometric.context import gestures
 from recognizer.geometric.heads import pieced_arrows
-from recognizer.geometric.letters import marks, too_large
-from recognizer.geometric.rules import seen
+from recognizer.geometric.letters import marks, too_large, written
+from recognizer.geometric.rules import Seen, seen
 from recognizer.geometric.strangers import familiarity, is_stranger
 from recognizer.geometric.symbols import attached, signs
 from recognizer.group import chains
@@ -78,12 +78,10 @@ class Geometric:
         alone = [NOTHING if look is None else look.beliefs for look in looks]
         found = gestures(ink, looks)
         rows = together(ink, alone, [index for index, gesture in enumerate(found) if gesture is None])
-        # What others on the page make of a stroke is explained by them; only what stands by itself may be a stranger.
+        strange = strangers(ink, looks, [row is own for row, own in zip(rows, alone, strict=True)], rows)
         return tuple(
-            claim_for(gesture, CONFIDENCE.gesture)
-            if gesture is not None
-            else claim(row, stranger=row is own and look is not None and is_stranger(look))
-            for row, own, look, gesture in zip(rows, alone, looks, found, strict=True)
+            claim(row, index in strange) if gesture is None else claim_for(gesture, CONFIDENCE.gesture)
+            for index, (row, gesture) in enumerate(zip(rows, found, strict=True))
         )
 
     def strangeness(self, drawings: Sequence[Ink]) -> FloatArray:
@@ -151,6 +149,20 @@ def weigh(stroke: Stroke) -> FloatArray:
     """The evidence for each kind from one stroke seen alone, (9,); none from a pen that never moved."""
     look = seen(stroke.points)
     return NOTHING if look is None else look.beliefs
+
+
+def strangers(
+    ink: Ink, looks: Sequence[Seen | None], alone: Sequence[bool], rows: Sequence[FloatArray]
+) -> set[int]:
+    """The strokes that no kind explains. What others on the page make of a stroke is explained by them: only those that stand
+    alone are asked, and not among letters."""
+    odd = [
+        index for index, look in enumerate(looks) if look is not None and alone[index] and is_stranger(look)
+    ]
+    if not odd:
+        return set()
+    letters = [index for index, row in enumerate(rows) if int(np.argmax(row)) == MATH]
+    return set(odd) - set(written(ink, odd, letters))
 
 
 def _strangeness(stroke: Stroke) -> float:

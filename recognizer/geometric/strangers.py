@@ -77,8 +77,8 @@ class StrangerRule:
     """Length of an arrow's path over its size: a shaft and four barbs of half of it have three."""
     reach: int = 3
     """Points of an outline to either side between which a bend is taken: an eighth of it in all."""
-    limit: float = -5.8
-    """Logarithm of the best explanation below which a stroke is rejected. On generated ink it keeps 99 % of the
+    limit: float = -9.0
+    """Logarithm of the best explanation below which a stroke is rejected. On generated ink it keeps 99.5 % of the
     kinds: what is lost here is lost for good on a page."""
 
 
