@@ -67,7 +67,7 @@ def full_pages(count: int, seed: int) -> list[Ink]:
         right = 0.0
         while len(strokes) < FULL:
             page = next(drawn).truth.ink
-            strokes += [replace(stroke, points=stroke.points + (right, 0.0)) for stroke in page]
+            strokes += [replace(stroke, points=stroke.points + np.array([right, 0.0])) for stroke in page]
             right += WIDTH
         found.append(Ink(tuple(strokes[:FULL])))
     return found

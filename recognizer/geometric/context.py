@@ -16,6 +16,7 @@ import shapely
 from numpy.typing import NDArray
 
 from recognizer.geometric.corners import corners
+from recognizer.geometric.kernels.paths import extent_of
 from recognizer.geometric.ring import Ring
 from recognizer.geometric.rules import Seen
 from recognizer.geometric.teeth import Teeth
@@ -83,11 +84,12 @@ def gestures(
     found: list[GestureKind | None] = [None] * len(ink)
     if len(ink) == 0:
         return found
+    if len(ink) == 1:
+        size = extent_of(np.ascontiguousarray(ink[0].points))
+        return ["tap" if dots(ink, np.array([size]), rule)[0] else None]
     boxes = boxes_of(ink, range(len(ink)))
     sizes = np.hypot(boxes[:, 2] - boxes[:, 0], boxes[:, 3] - boxes[:, 1])
     tiny = dots(ink, sizes, rule)
-    if len(ink) == 1:
-        return ["tap" if tiny[0] else None]
     tiny[_sides(ink, tiny, sizes, rule)] = False
     covered = shapely.box(*boxes.T)
     drawn = np.flatnonzero(~tiny)

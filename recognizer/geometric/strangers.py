@@ -12,7 +12,7 @@ from math import hypot, pi, radians
 from typing import assert_never
 
 from recognizer.geometric.bounds import Bound
-from recognizer.geometric.kernels.paths import tangle
+from recognizer.geometric.kernels.paths import crossing_places, length_of, winding
 from recognizer.geometric.kernels.rings import dents
 from recognizer.geometric.rules import Seen
 from sketch.page import STROKE_KINDS, StrokeKind
@@ -105,14 +105,14 @@ def _limits(kind: StrokeKind, look: Seen, rule: StrangerRule) -> float:
     """What speaks against the stroke's being of the kind, beyond what its belief has already."""
     match kind:
         case "math":
-            turning, changes, length, crosses = tangle(look.path, look.finely, rule.coarse, rule.slight)
+            turning, changes = winding(look.path, rule.coarse, rule.slight)
             ring = look.outline
             closed = ring is not None and ring.gap < rule.shut and ring.crosses == 0
             return (
                 rule.turning.below(turning)
                 + rule.changes.below(changes)
-                + rule.length.below(length)
-                + rule.knots.below(crosses)
+                + rule.length.below(length_of(look.finely))
+                + rule.knots.below(len(crossing_places(look.path)))
                 + (rule.dented.below(ring.wrong_way) if ring is not None and closed else 0.0)
             )
         case "circle" | "polygon" | "lasso":
@@ -120,7 +120,7 @@ def _limits(kind: StrokeKind, look: Seen, rule: StrangerRule) -> float:
         case "spring" | "scribble":
             return _swing_limits(kind, look, rule)
         case "arrow":
-            return rule.arrow.below(tangle(look.path, look.finely, rule.coarse, rule.slight)[2])
+            return rule.arrow.below(length_of(look.finely))
         case "wire" | "tap":
             return 0.0
         case _:
@@ -142,7 +142,7 @@ def _outline_limits(kind: StrokeKind, look: Seen, rule: StrangerRule) -> float:
 def _swing_limits(kind: StrokeKind, look: Seen, rule: StrangerRule) -> float:
     swings, ends = look.swings, look.path[-1] - look.path[0]
     points = min(max(rule.per_leg * swings.legs, rule.least), len(look.finely))
-    turning, _, length, _ = tangle(look.finely, look.finely, points, rule.slight)
+    turning, _ = winding(look.finely, points, rule.slight)
     apart = hypot(*ends.tolist())
     shared = rule.round.below(turning / max(swings.legs, 1)) + rule.even.below(swings.uneven)
     if kind == "scribble":
@@ -152,6 +152,6 @@ def _swing_limits(kind: StrokeKind, look: Seen, rule: StrangerRule) -> float:
         shared
         + rule.sharp.above(turning / max(swings.legs, 1))
         + rule.teeth.above(swings.height / max(swings.pitch, 1e-6))
-        + rule.direct.below(length / max(straight, 1e-6))
+        + rule.direct.below(length_of(look.finely) / max(straight, 1e-6))
         + rule.leads.above(apart)
     )

@@ -52,7 +52,7 @@ def test_a_regular_polygon_has_a_corner_less_than_sides(sides: int) -> None:
 
 
 @given(SEEDS, st.floats(0.01, 100), st.floats(-1e4, 1e4), st.floats(-1e4, 1e4), st.floats(0, 6.3))
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=40, deadline=None)
 def test_corners_move_scale_and_turn_with_the_page(
     seed: int, scale: float, x: float, y: float, angle: float
 ) -> None:
@@ -64,15 +64,15 @@ def test_corners_move_scale_and_turn_with_the_page(
     assert off(corners(turned + np.array([x, y])), expected + np.array([x, y])) < 0.03 * diagonal(turned)
 
 
-@given(SEEDS, st.integers(60, 900))
-@settings(max_examples=40, deadline=None, derandomize=True)
+@given(SEEDS, st.integers(40, 900))
+@settings(max_examples=40, deadline=None)
 def test_how_often_the_pen_was_sampled_changes_no_corner(seed: int, count: int) -> None:
     path, meant = polyline(seed)
     assert off(corners(resample(path, count)), meant) < 0.05 * diagonal(path)
 
 
 @given(SEEDS)
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=40, deadline=None)
 def test_a_stroke_drawn_backwards_has_the_same_corners(seed: int) -> None:
     path, _ = polyline(seed)
     assert off(corners(path[::-1])[::-1], corners(path)) < 0.03 * diagonal(path)
@@ -87,7 +87,7 @@ def test_a_straight_line_has_no_corner(angle: float, count: int) -> None:
 
 
 @given(st.floats(0, 6.3), st.floats(0.5, 6.6), st.floats(0.6, 1.0))
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=40, deadline=None)
 def test_an_arc_and_an_ellipse_have_no_corner(start: float, sweep: float, aspect: float) -> None:
     assert len(corners(ideals.superellipse((5, 5), (50, 50 * aspect), start, sweep))) == 0
 
@@ -145,21 +145,21 @@ def test_a_slight_bend_is_a_corner_where_the_pen_stopped_and_none_where_it_ran_o
     path, meant = walk([Ahead(1.0), Turn(0.37), Ahead(1.0)])
     points = resample(path, 201)
     along = np.linspace(0, 1, 201)
-    stopped = along + 0.05 * np.tanh((along - 0.5) / 0.01)  # at the corner six times as slow as elsewhere
+    stopped = along + 0.3 * np.tanh((along - 0.5) / 0.01)  # at the corner thirty times as slow as elsewhere
     assert len(corners(points, along)) == 0
     assert off(corners(points, stopped), meant) < 0.03 * diagonal(path)
 
 
 def test_corners_are_found_in_ink_as_often_as_was_measured() -> None:
-    """1,000 strokes of another seed: see benchmarks/results/corners.txt; without times about two in a hundred fewer."""
-    for suite, timed, untimed in ((polylines(200, 31), 0.0, 0.0), (line_arcs(198, 31), 0.0, 0.0)):
+    """1,000 strokes of another seed: see benchmarks/results/corners.txt; these are 89.5 % and 92.4 %, without times 94.0 % and 91.9 %."""
+    for suite, timed, untimed in ((polylines(200, 31), 0.885, 0.93), (line_arcs(198, 31), 0.914, 0.909)):
         both = (
             [corners(item.stroke.points, item.stroke.times) for item in suite],
             [corners(item.stroke.points) for item in suite],
         )
         for found, floor in zip(both, (timed, untimed), strict=True):
             right = [all_or_nothing(places, item) for places, item in zip(found, suite, strict=True)]
-            assert np.mean(right) >= floor; print("XX",np.mean(right))
+            assert np.mean(right) >= floor
 
 
 def test_a_suite_is_the_same_for_the_same_seed() -> None:

@@ -165,9 +165,9 @@ def crossing_places(points: FloatArray) -> FloatArray:
 
 
 @kernel
-def tangle(path: FloatArray, finely: FloatArray, coarse: int, slight: float) -> tuple[float, int, float, int]:
+def winding(path: FloatArray, coarse: int, slight: float) -> tuple[float, int]:
     """Turning of a path on `coarse` points, without regard to its sense, radians, and how often the sense changes between
-    bends of more than `slight`; length and crossings of the same path on more points."""
+    bends of more than `slight`."""
     turned, changes, sense = 0.0, 0, 0.0
     for bend in turning_angles(resampled(path, coarse)):
         turned += abs(bend)
@@ -175,4 +175,4 @@ def tangle(path: FloatArray, finely: FloatArray, coarse: int, slight: float) -> 
             if sense * bend < 0:
                 changes += 1
             sense = bend
-    return turned, changes, length_of(finely), len(crossing_places(finely))
+    return turned, changes
