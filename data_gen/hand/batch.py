@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from data_gen.hand.chance import Key, split, uniform
+from data_gen.hand.jit import part
 from data_gen.hand.names import MISSING, SPARSE
 from data_gen.hand.person import GRID, HOOKED, NOISE, UNPRESSED, UNTIMED, WOBBLING
-from physics.jit import part
 from sketch.ink import FloatArray
 
 Indices = NDArray[np.int64]

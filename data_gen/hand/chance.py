@@ -12,7 +12,7 @@ from math import cos, log, pi, sin, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.jit import part
+from data_gen.hand.jit import part
 
 Key = np.uint64
 State = NDArray[np.uint64]

@@ -24,6 +24,7 @@ from data_gen.hand.curves import (
     polygon,
     superellipse,
 )
+from data_gen.hand.jit import part
 from data_gen.hand.names import (
     ASPECT,
     CLOSURE,
@@ -36,7 +37,6 @@ from data_gen.hand.names import (
     TAIL,
 )
 from data_gen.hand.person import CLOSING, CORNER, GAP
-from physics.jit import part
 from sketch.ink import FloatArray
 
 Drawing = tuple[FloatArray, NDArray[np.int64], int]

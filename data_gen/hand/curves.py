@@ -10,7 +10,7 @@ from math import cos, hypot, pi, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.jit import part
+from data_gen.hand.jit import part
 from sketch.ink import FloatArray
 
 ARC_STEP = pi / 30

@@ -16,10 +16,10 @@ from data_gen.hand.chance import Key, State, between, key_of, normal, split, uni
 from data_gen.hand.closed import SHAPE, Drawing
 from data_gen.hand.curves import box, joined, line, more, moved, one, point, scaled, superellipse
 from data_gen.hand.item import place
+from data_gen.hand.jit import kernel, part
 from data_gen.hand.names import DIRECTION, SEVERAL
 from data_gen.hand.person import sampled
 from data_gen.hand.signs import Pools, picked
-from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
 SEVERAL_SHARE = 0.4

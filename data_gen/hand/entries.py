@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from data_gen.hand import curves
-from physics.jit import kernel
+from data_gen.hand.jit import kernel
 from sketch.ink import FloatArray
 
 

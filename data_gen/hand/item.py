@@ -26,11 +26,11 @@ from data_gen.hand.batch import (
 from data_gen.hand.chance import Key, key_of, normal, split, uniform
 from data_gen.hand.closed import Drawing, circle, convex, lasso
 from data_gen.hand.curves import more, piece
+from data_gen.hand.jit import kernel, part
 from data_gen.hand.lines import arrow, scribble, spring, tap, wire
 from data_gen.hand.names import BROKEN, ROTATION, SEVERAL, SHEAR
 from data_gen.hand.person import BREAKS, HEIGHT, PIECES, SLANT, sampled
 from data_gen.hand.signs import Pools, letter_part, mathematics
-from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
 Indices = NDArray[np.int64]

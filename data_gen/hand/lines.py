@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from data_gen.hand.chance import Key, State, between, normal, split, uniform
 from data_gen.hand.closed import PARTS, SHAPE, Drawing, loosened
 from data_gen.hand.curves import backwards, coil, joined, line, more, one, piece, point, scaled, waved, zigzag
+from data_gen.hand.jit import part
 from data_gen.hand.names import ASPECT, BACKTRACK, DIRECTION, PROPORTIONS, SIDES
-from physics.jit import part
 from sketch.ink import FloatArray
 
 ZIGZAG = 0.66

@@ -19,9 +19,9 @@ from scipy.special import ndtr
 
 from data_gen.hand.chance import Key, normal, split
 from data_gen.hand.curves import lengths
+from data_gen.hand.jit import part
 from data_gen.hand.names import KINEMATICS, RATE, ROUNDING, SPEED
 from data_gen.hand.person import OVERLAP, PACE, SAMPLES
-from physics.jit import part
 from sketch.ink import FloatArray
 
 Indices = NDArray[np.int64]

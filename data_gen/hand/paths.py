@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from data_gen.hand.chance import Key, normal, split, two_normals, uniform
 from data_gen.hand.curves import backwards, joined, moved, piece, point, size
+from data_gen.hand.jit import part
 from data_gen.hand.names import BOW, ENDS, FIELD, HOOKS, RETRACING, SPARSE, WOBBLE
-from physics.jit import part
 from sketch.ink import FloatArray
 
 HOOK = (0.02, 0.06)

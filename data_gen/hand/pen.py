@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from data_gen.hand.chance import Key, split, two_normals
 from data_gen.hand.curves import resampled, size
+from data_gen.hand.jit import kernel, part
 from data_gen.hand.motion import pressed, swung, travelled
 from data_gen.hand.names import (
     BOW,
@@ -31,7 +32,6 @@ from data_gen.hand.person import (
     SHAKING,
     WOBBLING,
 )
-from physics.jit import kernel, part
 from sketch.ink import FloatArray
 
 FIELD_SHARE, BOW_SHARE = 0.6, 0.7

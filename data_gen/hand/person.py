@@ -7,7 +7,7 @@ from math import exp
 import numpy as np
 
 from data_gen.hand.chance import Key, normal, split, uniform
-from physics.jit import kernel, part
+from data_gen.hand.jit import kernel, part
 from sketch.ink import FloatArray
 
 (

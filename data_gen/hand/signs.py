@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from data_gen.hand.chance import Key, State, normal, split, uniform
 from data_gen.hand.closed import PARTS, SHAPE, Drawing
 from data_gen.hand.curves import box, joined, more, moved, one, scaled
+from data_gen.hand.jit import part
 from data_gen.hand.names import ASPECT, CORNERS, DIRECTION, ENDS, PROPORTIONS
 from data_gen.hand.paths import strayed
-from physics.jit import part
 from sketch.ink import FloatArray
 
 Indices = NDArray[np.int64]

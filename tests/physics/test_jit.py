@@ -1,6 +1,6 @@
 """Machine code on disk: kept from one process to the next, and never older than its source.
 
-Each test runs a small package of kernels with the real physics/jit.py in processes of its own.
+Each test runs a small package of kernels with the real physics/jit.py and sketch/jit.py in processes of its own.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 
 import physics.jit
+import sketch.jit
 
 INNER = "from physics.jit import kernel\n@kernel\ndef inner(x: float) -> float:\n    return {factor} * x\n"
 OUTER = (
@@ -39,7 +40,11 @@ def package(tmp_path: Path) -> Path:
         (tmp_path / folder).mkdir(parents=True)
     for folder in ("physics", "physics/formula", "physics/engine", "physics/engine/exact"):
         (tmp_path / folder / "__init__.py").touch()
-    shutil.copy(physics.jit.__file__, tmp_path / "physics" / "jit.py")
+    (tmp_path / "sketch").mkdir()
+    (tmp_path / "sketch" / "__init__.py").touch()
+    for module in (physics.jit, sketch.jit):
+        room, name = module.__name__.split(".")
+        shutil.copy(str(module.__file__), tmp_path / room / f"{name}.py")
     (tmp_path / "physics/engine/exact/outer.py").write_text(OUTER)
     (tmp_path / "physics/formula/kernel.py").touch()
     (tmp_path / "physics/engine/inner.py").write_text(INNER.format(factor=2))
@@ -65,7 +70,7 @@ def run(package: Path) -> tuple[float, int]:
 
 def kept_in(folder: Path) -> list[str]:
     """Directories of compiled kernels below a folder, each by name."""
-    return sorted(found.name for found in folder.rglob(f"{physics.jit.PREFIX}*"))
+    return sorted(found.name for found in folder.rglob(f"{sketch.jit.PREFIX}*"))
 
 
 def test_machine_code_is_compiled_once_and_found_by_the_next_process(package: Path) -> None:
