@@ -25,5 +25,6 @@ inklined_install() {
     done
     echo "Installing inklined$1 into .venv (about a minute the first time) …" >&2
     "$venv/bin/python" -m pip install --quiet --disable-pip-version-check --editable "$home$1"
+    "$venv/bin/inklined" compile
     printf '%s' "$state" > "$venv/installed$1"
 }

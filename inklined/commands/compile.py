@@ -1,0 +1,139 @@
+"""`inklined compile`: machine code for this machine, made before anybody waits for it.
+
+The engine, the pen and the geometric recognizer compile their inner loops when these are first needed, one after
+another. Here they are needed all at once, each in a process of its own, so that every core works.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import typer
+
+if TYPE_CHECKING:
+    from physics.trajectory import Mode
+
+
+def register(app: typer.Typer) -> None:
+    """Adds the command."""
+    app.command("compile", epilog="Example: inklined compile")(compile_all)
+
+
+def compile_all() -> None:
+    """Compile for this machine what runs fast: once, in all cores, instead of when it is first needed."""
+    from joblib import Parallel, delayed
+
+    from inklined.terminal import err, progress
+
+    # The long ones first: the short ones fill the gaps.
+    jobs: dict[str, Callable[[], None]] = {
+        "the ink generator": _pen,
+        "the exact engine": _exact,
+        "the geometric recognizer": _geometric,
+        "the engine for crowds": _robust,
+    }
+    err.print(f"Compiling {', '.join(jobs)} for this machine: once, for about a minute.", style="dim")
+    with progress() as tell:
+        done = Parallel(n_jobs=-1, return_as="generator_unordered")(
+            delayed(_quietly)(job) for job in jobs.values()
+        )
+        for number, _ in enumerate(done, 1):
+            tell("compiling", number, len(jobs))
+
+
+def _quietly(job: Callable[[], None]) -> None:
+    """Without saying that it compiles: that was said for all."""
+    import logging
+
+    logging.getLogger("inklined").setLevel(logging.ERROR)
+    job()
+
+
+def _pen() -> None:
+    from data_gen.pages import pages
+    from data_gen.strokes import doodles, items
+
+    items(100, seed=1)
+    doodles(5, seed=1)
+    list(pages(3, seed=1, cluttered=True))
+
+
+def _geometric() -> None:
+    """Strokes of the sorts that are looked at differently."""
+    import numpy as np
+
+    from recognizer.geometric.recognizer import Geometric
+    from sketch.ink import Ink, Stroke
+
+    share = np.linspace(0.0, 1.0, 120)
+    turn = 2 * np.pi * share
+    paths = [
+        np.column_stack([60 * np.cos(turn), 40 * np.sin(turn)]),  # a ring
+        np.column_stack([300 * share, 0 * share]),  # a wire
+        np.column_stack([300 * share + 15 * np.cos(8 * turn), 15 * np.sin(8 * turn)]),  # a coil
+        np.column_stack([300 * share, 20 * np.abs(16 * share % 2 - 1)]),  # a zig-zag
+        np.column_stack([60 * np.sign(np.cos(turn)), 60 * np.sign(np.sin(turn))]),  # a box
+        np.column_stack(
+            [
+                np.interp(share, [0, 0.6, 0.8, 0.9, 1], [0, 100, 85, 100, 85]),
+                np.interp(share, [0, 0.6, 0.8, 0.9, 1], [0, 0, 12, 0, -12]),
+            ]
+        ),  # an arrow
+    ]
+    beside = np.array([400.0, 0.0])
+    strokes = (Stroke(path + k * beside, 0.001 * np.arange(120)) for k, path in enumerate(paths))
+    Geometric().recognize(Ink(tuple(strokes)))
+
+
+def _exact() -> None:
+    _move("exact")
+
+
+def _robust() -> None:
+    _move("robust")
+
+
+def _move(mode: Mode) -> None:
+    """A ball that falls on a floor, a box drawn into it, a bob on a wire, a load on a spring, a push by a formula:
+    bodies that meet, and bodies that do not."""
+    import numpy as np
+    from sympy import Symbol
+
+    from physics.engine import simulate
+    from physics.formula.program import compile_tree
+    from physics.scene import (
+        Anchor,
+        Block,
+        Body,
+        Disc,
+        Force,
+        Material,
+        Scene,
+        SpringLink,
+        WireLink,
+        block_inertia,
+        disc_inertia,
+    )
+
+    rough = Material(0.5, 0.4)
+    square = ((-0.3, -0.3), (0.3, -0.3), (0.3, 0.3), (-0.3, 0.3))
+    plank = ((-9.0, -0.5), (9.0, -0.5), (9.0, 0.5), (-9.0, 0.5))
+    round_ = disc_inertia(1.0, 0.2)
+    bodies = (
+        Body("floor", Block(plank), (0.0, -0.5), 1.0, block_inertia(1.0, plank), fixed=True, material=rough),
+        Body("ball", Disc(0.2), (0.0, 0.3), 1.0, round_, velocity=(1.0, 0.0, 0.0), material=rough),
+        Body("box", Block(square), (1.5, 0.29), 1.0, block_inertia(1.0, square), 0.01, material=rough),
+        Body("bob", Disc(0.2), (-3.0, 2.0), 1.0, round_),
+        Body("load", Disc(0.2), (-5.0, 2.0), 1.0, round_),
+    )
+    nothing, grows = (compile_tree(tree, lambda _: None) for tree in (0.0, Symbol("t") + Symbol("x")))
+    scene = Scene(
+        bodies,
+        springs=(SpringLink("k", Anchor("load", (0.0, 0.0)), Anchor(None, (-5.0, 3.0)), 1.0, 50.0),),
+        wires=(WireLink("T", Anchor("bob", (0.0, 0.0)), Anchor(None, (-4.0, 2.0)), 1.0),),
+        forces=(Force("F", "load", grows, nothing),),
+    )
+    motion = simulate(scene, 1.0, mode=mode)
+    motion.at(np.array([0.5]))
+    assert motion.forces
