@@ -110,7 +110,7 @@ def _ramble(rng: np.random.Generator, sharp: float = 0.0) -> list[FloatArray]:
     heading = np.cumsum(rng.uniform(0.5, 1.3) * rng.standard_normal(count)) + rng.uniform(0, 2 * np.pi)
     steps = rng.uniform(0.4, 1.6, (count, 1)) * np.column_stack([np.cos(heading), np.sin(heading)])
     points = np.cumsum(steps, axis=0)
-    return [alphabet.curve(points, tuple(np.flatnonzero(rng.random(count - 2) < sharp) + 1))]
+    return [alphabet.curve(points, (np.flatnonzero(rng.random(count - 2) < sharp) + 1).tolist())]
 
 
 def _battlement(rng: np.random.Generator) -> list[FloatArray]:
@@ -195,8 +195,8 @@ def _box(rng: np.random.Generator) -> FloatArray:
 
 
 def _teeth(rng: np.random.Generator) -> FloatArray:
-    count = int(rng.integers(4, 8))
-    return np.column_stack([np.arange(count) * 0.3, (np.arange(count) % 2) * rng.uniform(0.4, 0.9)])
+    place = np.arange(int(rng.integers(4, 8)), dtype=np.float64)
+    return np.column_stack([0.3 * place, (place % 2) * rng.uniform(0.4, 0.9)])
 
 
 def _coils(rng: np.random.Generator) -> FloatArray:
