@@ -84,7 +84,9 @@ def test_the_features_of_a_ring_are_those_of_a_ring() -> None:
     assert told["turning, signed, turns"] == pytest.approx(1, abs=0.05)
     assert told["turning, absolute, turns"] == pytest.approx(1, abs=0.05)
     assert told["corners"] == told["log of the crossings"] == pytest.approx(0, abs=1e-6)
-    assert told["compactness of the enclosed area"] == pytest.approx(1, abs=5e-3)  # 4 pi A over the square of the length
+    assert told["compactness of the enclosed area"] == pytest.approx(
+        1, abs=5e-3
+    )  # 4 pi A over the square of the length
     assert told["length over the hull's perimeter"] == pytest.approx(1, abs=5e-3)
     assert told["spread of the radius about the centroid"] == pytest.approx(0, abs=0.02)
     assert sequence[0, CHANNELS.index("distance from the centroid")].tolist() == pytest.approx(
