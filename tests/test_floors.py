@@ -43,10 +43,12 @@ FLOORS: dict[str, Floor] = {
     "paper": Floor(0.65, 0.675, 0.37, strokes=0.95, exact=0.62, same_outcome=0.62, motion=0.32),
     # five 0.926, claimable 0.837, ece 0.058; strokes 0.980, exact 0.958, same 0.958, motion 0.060
     "geometric": Floor(0.915, 0.825, 0.07, strokes=0.97, exact=0.91, same_outcome=0.91, motion=0.105),
-    # five 0.987, claimable 0.954, ece 0.031; strokes 0.996, exact 0.958, same 1.000, motion 0.018
-    "learned": Floor(0.98, 0.945, 0.04, strokes=0.987, exact=0.91, same_outcome=0.95, motion=0.065),
-    # five 0.984, claimable 0.956, ece 0.031; strokes 0.996, exact 0.958, same 1.000, motion 0.018
-    "hybrid": Floor(0.975, 0.945, 0.04, strokes=0.987, exact=0.91, same_outcome=0.95, motion=0.065),
+    # five 0.987, claimable 0.952, ece 0.044; strokes 0.996, exact 0.917, same 0.958, motion 0.059. The calibration error was
+    # 0.031 until the net learned strangers: one stroke in nine here is a lasso around nothing, of which it is now less sure
+    # (without them 0.010 of 2,667 strokes; on people's ink it went from 0.010 to 0.009).
+    "learned": Floor(0.98, 0.945, 0.05, strokes=0.987, exact=0.91, same_outcome=0.95, motion=0.065),
+    # five 0.987, claimable 0.956, ece 0.049; strokes 0.996, exact 0.917, same 0.958, motion 0.059
+    "hybrid": Floor(0.98, 0.945, 0.055, strokes=0.987, exact=0.91, same_outcome=0.95, motion=0.065),
     # strokes 1.000, exact 1.000, same 1.000, motion 0.018
     "oracle": Floor(None, None, None, strokes=0.99, exact=0.95, same_outcome=0.95, motion=0.065),
 }

@@ -70,7 +70,7 @@ def main(arguments: list[str] | None = None) -> int:
     log = options.out.with_suffix(".jsonl")
     log.parent.mkdir(parents=True, exist_ok=True)
     found = _logged(log)
-    for name in (ALL, AGAIN, *VARIATIONS):
+    for name in (ALL, *(options.only or (AGAIN, *VARIATIONS))):
         if name not in found:
             found[name] = right_without(name, people, options.threads)
             with log.open("a", encoding="utf-8") as lines:
@@ -102,7 +102,7 @@ def right_without(name: str, people: People, jobs: int, rule: AblationRule = RUL
     """Which rows a small net reads right that was trained without the variation."""
     without = () if name in (ALL, AGAIN) else (name,)
     seed = rule.seed + (name == AGAIN)
-    plan = Plan(alone=rule.drawings, strewn=0, pages=0, doodles=0, recipe=Recipe(without))
+    plan = Plan(rule.drawings, strewn=0, pages=0, doodles=0, arrows=0, signs=0, recipe=Recipe(without))
     corpus = make_corpus(plan, seed, jobs)
     net = fit(corpus, seed, FitRule(epochs=rule.epochs, both=1), SIZE)
     said = say(net, people.corpus)
@@ -164,6 +164,13 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--ink", type=Path, required=True, help="labelled rows of people's ink, JSON Lines")
     parser.add_argument(
         "--out", type=Path, default=Path("ablation.txt"), help="the table; the log lies beside it"
+    )
+    parser.add_argument(
+        "--only",
+        nargs="*",
+        choices=(AGAIN, *VARIATIONS),
+        metavar="NAME",
+        help="leave out these alone, and nothing (default: each in turn)",
     )
     parser.add_argument("--threads", type=int, default=os.cpu_count() or 1)
     return parser.parse_args(arguments)

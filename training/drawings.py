@@ -11,7 +11,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from data_gen.hand.doodles import DOODLES
+from data_gen.authored import NAMES, flow_arrows, oddities, signs
+from data_gen.oddities import ODDITIES
 from data_gen.pages import page as whole_page
 from data_gen.problems import ANSWERS, PROBLEMS
 from data_gen.strokes import EVERYBODY, LabelledItem, Recipe, doodles, items
@@ -66,28 +67,39 @@ PAGES = (0.3, 0.35)
 """Share of whole pages that are looked at before they are finished, and of those that bear clutter."""
 
 
+FIRST_UNSEEN = ("knot", "fish", "signature", "leaf")
+"""Families of doodles that have been kept for measuring from the beginning."""
+UNSEEN = (*FIRST_UNSEEN, *sorted(ODDITIES)[3::4])
+"""All families that are kept for measuring, every fourth of the others by the alphabet: what is rejected must not have
+been learned by heart."""
+DOODLED = 3
+"""One in so many of the doodles is of the generator's own families, the others are of `data_gen.oddities`."""
+COUNTS = ("alone", "strewn", "pages", "doodles", "arrows", "signs")
+"""What a plan counts."""
+
+
 @dataclass(frozen=True, slots=True)
 class Plan:
     """How many of what. Counts are drawings."""
 
-    alone: int = 160_000
+    alone: int = 146_000
     strewn: int = 10_000
     pages: int = 2_500
-    doodles: int = 16_000
+    doodles: int = 30_000
+    arrows: int = 7_000
+    """Arrows of charts, and"""
+    signs: int = 1_000
+    """signs whose strokes are those of other kinds; both beside those that are among the things alone."""
     recipe: Recipe = EVERYBODY
-    unseen: tuple[str, ...] = ("knot", "fish", "signature", "leaf")
-    """Families of doodles that are kept for measuring: what is rejected must not have been learned by heart."""
+    unseen: tuple[str, ...] = UNSEEN
 
     @property
     def total(self) -> int:
-        return self.alone + self.strewn + self.pages + self.doodles
+        return sum(getattr(self, name) for name in COUNTS)
 
     def scaled(self, share: float) -> Plan:
         """The same mixture, larger or smaller."""
-        counts = {
-            name: round(share * getattr(self, name)) for name in ("alone", "strewn", "pages", "doodles")
-        }
-        return replace(self, **counts)
+        return replace(self, **{name: round(share * getattr(self, name)) for name in COUNTS})
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,8 +111,10 @@ class StrewnRule:
     """Log-uniform range of a thing's size on its page of `paper` units, letters smaller by `letters`."""
     letters: float = 0.35
     paper: tuple[float, float] = (640.0, 480.0)
-    doodle: float = 0.08
-    """Share of things that are doodles."""
+    doodle: float = 0.09
+    """Share of things that are doodles,"""
+    flow: float = 0.03
+    """and of those that are arrows of charts."""
     lasso: float = 0.25
     """Share of pages on which a lasso is thrown about some things,"""
     scribble: float = 0.2
@@ -132,6 +146,10 @@ def drawings(plan: Plan, seed: int, part: int, parts: int) -> Iterator[Drawing]:
     yield from pages(*_range(plan.pages, part, parts), seed + 2)
     for item in doodles_of(*_range(plan.doodles, part, parts), seed + 3, plan):
         yield alone(item)
+    for made, count, offset in ((flow_arrows, plan.arrows, 4), (signs, plan.signs, 5)):
+        start, here = _range(count, part, parts)
+        for item in made(here, seed + offset, start, plan.recipe):
+            yield alone(item)
 
 
 def things_alone(start: int, count: int, seed: int, recipe: Recipe = EVERYBODY) -> Iterator[Drawing]:
@@ -142,8 +160,11 @@ def things_alone(start: int, count: int, seed: int, recipe: Recipe = EVERYBODY) 
 
 def doodles_of(start: int, count: int, seed: int, plan: Plan, unseen: bool = False) -> list[LabelledItem]:
     """Doodles of the families that are learned from, or of the others; fewer than `count`."""
-    made = doodles(count, seed, start, plan.recipe)
-    return [item for item in made if (DOODLES[item.count] in plan.unseen) == unseen]
+    pairs = zip(
+        doodles(count, seed, start, plan.recipe), oddities(count, seed, start, plan.recipe), strict=True
+    )
+    made = [ours if ours.index % DOODLED == 0 else other for ours, other in pairs]
+    return [item for item in made if (NAMES[item.count] in plan.unseen) == unseen]
 
 
 def pages(start: int, count: int, seed: int) -> Iterator[Drawing]:
@@ -174,6 +195,7 @@ def strewn(start: int, count: int, seed: int, plan: Plan) -> Iterator[Drawing]:
     most = STREWN.things[1]
     pool = items(count * most, seed, start * most, BESIDE, plan.recipe)
     odd = doodles_of(start, count, seed + 7_000, plan)
+    flow = flow_arrows(count, seed + 11_000, start, plan.recipe)
     gestures = _Gestures(
         items(count, seed + 8_000, start, _only("lasso"), plan.recipe),
         items(count, seed + 9_000, start, _only("scribble"), plan.recipe),
@@ -185,6 +207,8 @@ def strewn(start: int, count: int, seed: int, plan: Plan) -> Iterator[Drawing]:
         for place in range(len(chosen)):
             if odd and rng.random() < STREWN.doodle:
                 chosen[place] = odd[int(rng.integers(len(odd)))]
+            elif rng.random() < STREWN.flow:
+                chosen[place] = flow[int(rng.integers(count))]
         yield _strewn(chosen, gestures, offset, rng)
 
 

@@ -20,9 +20,11 @@ from training.reader import RawReader
 
 INPUTS = ("points", "times", "stroke", "page", "timed")
 OUTPUTS = ("kinds", "strange", "together")
+AXES = {"points": "points", "times": "points", "stroke": "points", "first": "rows", "last": "rows"}
+"""Of what there may be any number in each array; of the others: strokes."""
 OPSET = 18
 """The newest that the exporter knows well; onnxruntime and onnxruntime-web know far newer ones."""
-BETWEEN = ("encoded", "paths", "moments", "company")
+BETWEEN = ("encoded", "paths", "first", "last", "same", "company")
 
 
 def export(reader: RawReader, target: Path, metadata: dict[str, str]) -> None:
@@ -41,15 +43,18 @@ def assembled(reader: RawReader) -> ModelProto:
     """The whole reader as one model."""
     points, times = torch.rand(7, 2, dtype=torch.float64), torch.arange(7, dtype=torch.float64)
     stroke, page, timed = torch.tensor([0, 0, 0, 1, 1, 2, 2]), torch.tensor([0, 0, 0]), torch.ones(3)
+    raw = {"points": points, "stroke": stroke, "page": page}
     with torch.no_grad():
-        encoded, paths, moments, _ = reader.encoded(points, times, stroke, page)
-    front = _exported(reader.encoded, dict(zip(INPUTS, (points, times, stroke, page), strict=False)), BETWEEN)
-    company = {"encoded": encoded, "paths": paths, "moments": moments, "page": page, "timed": timed}
+        encoded, paths, first, last, same, _ = reader.encoded(*raw.values())
+    front = _exported(reader.encoded, raw, BETWEEN)
+    company = {"encoded": encoded, "paths": paths, "first": first, "last": last}
+    company |= {"same": same, "times": times, "timed": timed}
     branches = {
         "then_branch": _exported(reader.in_company, company, OUTPUTS),
-        "else_branch": _exported(reader.alone, {"encoded": encoded}, OUTPUTS),
+        "else_branch": _exported(reader.alone, {"encoded": encoded, "same": same}, OUTPUTS),
     }
     graph = front.graph
+    _planar(graph)
     stored: dict[bytes, str] = {}
     graphs: dict[str, GraphProto] = {}
     for name, branch in branches.items():
@@ -72,8 +77,9 @@ def assembled(reader: RawReader) -> ModelProto:
 
 def _exported(module: nn.Module, example: dict[str, Tensor], outputs: tuple[str, ...]) -> ModelProto:
     """A part as a model of its own: strokes and points may be any number."""
-    axes = {name: {0: "points" if name in ("points", "times", "stroke") else "strokes"} for name in example}
-    axes |= {name: {0: "strokes", 1: "strokes"} if name == "together" else {0: "strokes"} for name in OUTPUTS}
+    axes = {name: {0: AXES.get(name, "strokes")} for name in example}
+    axes |= {name: {0: "strokes"} for name in OUTPUTS}
+    axes |= {name: {0: "strokes", 1: "strokes"} for name in ("same", "together")}
     with warnings.catch_warnings(), tempfile.TemporaryDirectory() as folder:
         # Branches by Python values would be frozen: a reader has none, and parity is tested. The newer exporter
         # writes the same operators, but thinks a hundred times as long about them.
@@ -107,6 +113,30 @@ def _settled(graph: GraphProto) -> None:
             graph.initializer[-1].name = node.output[0]
         else:
             graph.node.append(node)
+
+
+def _planar(graph: GraphProto) -> None:
+    """Makes the convolutions along strokes ones over pictures of one row: runtimes have better code for those."""
+    weights = {tensor.name: tensor for tensor in graph.initializer}
+    graph.initializer.append(helper.make_tensor("row", onnx.TensorProto.INT64, [1], [2]))
+    convolutions = [node for node in graph.node if node.op_type == "Conv"]
+    for node in convolutions:
+        dims = weights[node.input[1]].dims
+        dims[:] = [dims[0], dims[1], 1, dims[2]]
+        for attribute in node.attribute:
+            match attribute.name:
+                case "pads":
+                    before, after = attribute.ints
+                    attribute.ints[:] = [0, before, 0, after]
+                case "kernel_shape" | "strides" | "dilations":
+                    attribute.ints[:] = [1, *attribute.ints]
+                case _:
+                    pass
+    # What comes after them flattens the row by itself.
+    first = convolutions[0]
+    lying = helper.make_node("Unsqueeze", [first.input[0], "row"], ["lying"], name="lying")
+    first.input[0] = "lying"
+    graph.node.insert(list(graph.node).index(first), lying)
 
 
 def _prefixed(graph: GraphProto, prefix: str, kept: tuple[str, ...]) -> None:

@@ -13,7 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import torch
+from numpy.typing import NDArray
 from torch import Tensor, nn
+
+Numbers = NDArray[np.float64]
 
 POINTS = 64
 """Points of equal spacing that stand for a stroke: five for each leg of a twelve-legged zig-zag."""
@@ -94,114 +97,143 @@ class Features(nn.Module):
     """paths (B, 64, 2) in the strokes' own frames (a stroke that never moved: zeros) and the number of
     different raw points (B,) -> sequence (B, 15, 64) and whole (B, 19).
 
-    Columns stay columns, (B, 1), and what is summed is summed together: to a single stroke each operator
-    costs more than its arithmetic.
+    To a single stroke each operator costs more than its arithmetic, whence few of them: what is linear is one product
+    with stored numbers, what is summed is summed together.
     """
 
     differences: Tensor
+    turned: Tensor
+    neighbours: Tensor
     support: Tensor
+    girth: Tensor
+    across: Tensor
     units: Tensor
+    linear: Tensor
+    constant: Tensor
 
     def __init__(self) -> None:
         super().__init__()
-        self.register_buffer("differences", torch.from_numpy(_differences()), persistent=False)
-        angle = np.arange(RULE.directions) * (np.pi / RULE.directions)
-        directions = np.stack([np.cos(angle), np.sin(angle)]).astype(np.float32)
-        self.register_buffer("support", torch.from_numpy(directions), persistent=False)
-        units = [2.0, 1.0, 1.0, 1 / (4 * np.pi)]
-        self.register_buffer("units", torch.tensor(units, dtype=torch.float32)[:, None], persistent=False)
+        linear, constant = _linear()
+        angle = np.arange(2 * RULE.directions) * (np.pi / RULE.directions)
+        stored = {
+            "differences": _differences(),
+            # Half turns so far less half of all, in turns of 2 pi.
+            "turned": (np.triu(np.ones((POINTS, POINTS)), 1) + 0.5 * np.eye(POINTS) - 0.5) / (2 * np.pi),
+            # What crosses a step counts half for each of its ends, in thirds.
+            "neighbours": (np.eye(POINTS - 1, POINTS) + np.eye(POINTS - 1, POINTS, 1)) / 6,
+            "support": np.stack([np.cos(angle), np.sin(angle)]),
+            # The perimeter of the hull by Cauchy's formula: pi times the mean width.
+            "girth": np.full((2 * RULE.directions, 1), np.pi / RULE.directions),
+            # A vector, and it turned by a quarter.
+            "across": np.array([[1, 0], [0, 1], [0, 1], [-1, 0]]),
+            "units": np.array([2.0, 1.0, 1.0])[:, None],
+            "linear": linear,
+            "constant": constant,
+        }
+        for name, numbers in stored.items():
+            self.register_buffer(name, torch.from_numpy(numbers.astype(np.float32)), persistent=False)
 
     def forward(self, paths: Tensor, distinct: Tensor) -> tuple[Tensor, Tensor]:
-        spans = len(RULE.spans)
         xy = paths.transpose(1, 2)
-        vectors = (xy @ self.differences).reshape(-1, 2, 2 * spans + 4, POINTS)
-        lengths = torch.sqrt((vectors * vectors).sum(dim=1))
-        come, leave, towards, others = vectors.split([spans, spans, 1, 3], dim=2)
-        come_length, leave_length, towards_length, away = lengths.split([spans, spans, 1, 3], dim=1)
+        # Vectors and normals of all blocks: (B, 2, 2, 11, 64). What follows keeps four axes: (B, 1, rows, 64).
+        both = (self.across @ (xy @ self.differences)).reshape(-1, 2, 2, BLOCKS, POINTS)
+        vectors, normals = both.split(1, dim=1)
+        lengths = _length(vectors, dim=2)
+        come_length, away, leave_length, _, towards_length = lengths.split([3, 3, 3, 1, 1], dim=2)
         # Turns over each span, between the chord that comes in and the chord that leaves.
-        both = come_length * leave_length
-        sure = 1.0 / (both + RULE.still**2)
-        cosine = (come * leave).sum(dim=1) * sure
-        sine = _cross(come, leave) * sure
-        sharp = 0.5 * (both * sure - cosine)
-        turn = 2.0 * torch.atan(sine[:, :1] / (cosine[:, :1] + (1.0 + RULE.reversal)))
-        turned = torch.cumsum(turn, dim=2)
-        crossed = self._crossed(xy, leave[:, :, 0], leave_length[:, :1])
-        crossings = 0.5 * (crossed + nn.functional.pad(crossed[:, :, :-1], (1, 0)))
+        reach = come_length * leave_length
+        sure = 1.0 / (reach + RULE.still**2)
+        products = (vectors[:, :, :, :4] * both[:, :, :, 6:10]).sum(dim=2)
+        cosine, sine = (products[:, :, :3] * sure).split(1, dim=1)
+        sharp = 0.5 * (reach * sure - cosine)
+        sharpness, corner, _ = sharp.split(1, dim=2)
+        turn = torch.atan(sine[:, :, :1] / (cosine[:, :, :1] + (1.0 + RULE.reversal)))
+        steps = leave_length[:, :, :1]
+        crossings = self._crossings(xy, normals[:, 0, :, 6], steps[:, 0])[:, None]
         sequence = torch.cat(
             [
-                2.0 * xy,
-                (towards / (towards_length[:, None] + RULE.still))[:, :, 0],
+                2.0 * xy[:, None],
+                vectors[:, :, :, 10] / (towards_length + RULE.still),
                 sine,
                 sharp,
-                torch.cat([away, turned - 0.5 * (turn + turned[:, :, -1:])], dim=1) * self.units,
-                torch.clamp(crossings, max=3.0) * (1 / 3),
+                away * self.units,
+                turn @ self.turned,
+                torch.clamp(crossings, max=1.0),
             ],
-            dim=1,
-        )
-        return sequence, self._whole(others, leave_length[:, :1], away, turn, sharp, crossed, distinct)
+            dim=2,
+        ).reshape(-1, len(CHANNELS), POINTS)
+        middle = vectors[:, 0, :, 3]
+        summands = torch.cat(
+            [
+                (middle[:, [0, 1, 0]] * middle[:, [0, 1, 1]])[:, None],
+                steps,
+                turn,
+                turn.abs(),
+                sharpness,
+                torch.relu(corner - RULE.corner),
+                crossings,
+                products[:, 1:, 3:],
+            ],
+            dim=2,
+        ).reshape(-1, len(SUMS), POINTS)
+        beside = (vectors[:, 0, :, 4, POINTS - 1 :] * normals[:, 0, :, 4]).sum(dim=1).abs()
+        ends = torch.cat([lengths[:, 0, 4:5, POINTS - 1], beside.amax(dim=1, keepdim=True)], dim=1)
+        sharpest = corner.amax(dim=3)[:, 0]
+        return sequence, self._whole(middle, away[:, 0, :1], summands, ends, sharpest, distinct)
 
-    def _crossed(self, xy: Tensor, step: Tensor, length: Tensor) -> Tensor:
-        """How many other steps cross the step that leaves each point, (B, 1, 64); none at the last.
+    def _crossings(self, xy: Tensor, normal: Tensor, length: Tensor) -> Tensor:
+        """How many other steps cross the steps beside each point, in thirds, (B, 1, 64).
 
         How far each point lies to the left of each step is a certainty between −1 and 1; neighbouring steps
         share a point, which lies on neither side, so that they never cross.
         """
-        steps = step / ((length + RULE.still) * RULE.aside)
-        normal = torch.cat([-steps[:, 1:], steps[:, :1]], dim=1)
+        normal = normal / ((length + RULE.still) * RULE.aside)
         offset = (normal * xy).sum(dim=1, keepdim=True)
-        side = torch.clamp(normal.transpose(1, 2) @ xy - offset.transpose(1, 2), -1.0, 1.0)
-        parted = torch.clamp(side[:, :-1, 1:] * side[:, :-1, :-1], max=0.0)
-        crossed = (parted * parted.transpose(1, 2)).sum(dim=1, keepdim=True)
-        return nn.functional.pad(crossed, (0, 1))
+        side = torch.clamp(normal.transpose(1, 2) @ xy - offset.transpose(1, 2), -1.0, 1.0)[:, :-1]
+        parted = torch.clamp(side[:, :, 1:] * side[:, :, :-1], max=0.0)
+        return (parted * parted.transpose(1, 2)).sum(dim=1, keepdim=True) @ self.neighbours
 
     def _whole(
         self,
-        others: Tensor,
-        steps: Tensor,
-        away: Tensor,
-        turn: Tensor,
-        sharp: Tensor,
-        crossed: Tensor,
+        middle: Tensor,
+        radius: Tensor,
+        summands: Tensor,
+        ends: Tensor,
+        sharpest: Tensor,
         distinct: Tensor,
     ) -> Tensor:
-        """others (B, 2, 3, 64): where each point lies from the centroid, the start and the end, `away` how far."""
-        middle, from_start, _ = others.unbind(dim=2)
-        radius = away[:, :1]
-        squares = middle * middle
-        product = middle[:, :1] * middle[:, 1:]
-        around = torch.cat([middle, middle[:, :, :1]], dim=2)
-        swept = _cross(around[:, :, :-1], around[:, :, 1:])
-        corners = torch.relu(sharp[:, 1:2] - RULE.corner)
-        summed = torch.cat(
-            [steps, turn, turn.abs(), sharp[:, :1], corners, crossed, swept[:, None], squares, product], dim=1
-        ).sum(dim=2)
-        length, signed, absolute, sharpness, cornered, crossings, area, sum_xx, sum_yy, sum_xy = summed.split(
-            1, dim=1
-        )
+        """middle (B, 2, 64): where each point lies from the centroid, `radius` how far; summands (B, 10, 64) as `SUMS`;
+        ends (B, 2): from the start to the end, and twice the greatest triangle over that."""
+        chord, beside = ends.split(1, dim=1)
+        figures = torch.addmm(self.constant, summands.sum(dim=2), self.linear)
+        (
+            quadratic,
+            xy,
+            uneven,
+            mean,
+            length,
+            signed,
+            absolute,
+            sharpness,
+            logged,
+            area,
+        ) = figures.split([3, 1, 2, 1, 1, 1, 1, 2, 1, 1], dim=1)
         still = (length == 0).float()
         length = length + still
-        xx, yy, xy = (total * (1 / POINTS) for total in (sum_xx, sum_yy, sum_xy))
-        half = torch.sqrt(0.25 * (xx - yy) ** 2 + xy * xy)
-        mean = 0.5 * (xx + yy)
+        half = _length(uneven, keepdim=True)
         narrow = torch.sqrt((torch.relu(mean - half) + 10 * RULE.floor) / (mean + half + RULE.floor))
         # Radius once both spreads are made 1: by the inverse of the covariance, a straight line's too.
-        least = RULE.thinnest * (xx + yy) + RULE.floor
-        thick = torch.cat([yy + least, xx + least], dim=1)
-        white = (squares * thick[:, :, None]).sum(dim=1) - 2 * xy * product[:, 0]
-        white = white / (thick[:, :1] * thick[:, 1:] - xy * xy)
-        whitened = torch.sqrt(torch.relu(white) + RULE.floor)
-        radii = torch.stack([radius[:, 0], whitened], dim=1)
+        white = quadratic[:, None] @ summands[:, :3]
+        spreads = quadratic[:, :1] * quadratic[:, 1:2] - xy * xy
+        whitened = torch.sqrt(torch.relu(white / spreads[:, None]) + RULE.floor)
+        radii = torch.cat([radius, whitened], dim=1)
         mean_radii = radii.mean(dim=2, keepdim=True)
-        spread = torch.sqrt(((radii - mean_radii) ** 2).mean(dim=2)) / (mean_radii[:, :, 0] + RULE.floor)
-        shadow = middle.transpose(1, 2) @ self.support
-        hull = np.pi * (shadow.amax(dim=1) - shadow.amin(dim=1)).mean(dim=1, keepdim=True)
-        end = from_start[:, :, -1:]
-        beside = _cross(end, from_start).abs().amax(dim=1, keepdim=True)
-        chord = away[:, 1, -1:]
+        strays = _length(radii - mean_radii, dim=2, keepdim=True)
+        spread = (strays / ((mean_radii + RULE.floor) * POINTS**0.5))[:, :, 0]
+        hull = (middle.transpose(1, 2) @ self.support).amax(dim=1) @ self.girth
         quarter = POINTS // 4
         gap = middle[:, :, :quarter, None] - middle[:, :, None, -quarter:]
-        closing = torch.sqrt((gap * gap).sum(dim=1).amin(dim=(1, 2)))[:, None]
+        closing = _length(gap).amin(dim=(1, 2))[:, None]
         turning = signed.abs()
         drawn = torch.cat(
             [
@@ -209,14 +241,13 @@ class Features(nn.Module):
                 chord,
                 torch.log(length),
                 narrow,
-                turning * (1 / (2 * np.pi)),
-                absolute * (1 / (2 * np.pi)),
-                turning / (absolute + 0.1),
-                sharpness * (1 / 8),
-                cornered * (1 / 8),
-                sharp[:, 1].amax(dim=1, keepdim=True),
-                torch.log1p(0.5 * crossings),
-                2 * np.pi * area.abs() / (length * length),
+                turning,
+                absolute,
+                turning / (absolute + 0.1 / (2 * np.pi)),
+                sharpness,
+                sharpest,
+                torch.log(logged),
+                area.abs() / (length * length),
                 length / (hull + still),
                 spread,
                 beside / ((chord + 0.05) * length),
@@ -228,9 +259,8 @@ class Features(nn.Module):
         return torch.cat([torch.clamp(drawn, -6.0, 6.0) * (1.0 - still), few, still], dim=1)
 
 
-def _cross(one: Tensor, other: Tensor) -> Tensor:
-    """Cross products of vectors (B, 2, …) -> (B, …)."""
-    return one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
+def _length(vectors: Tensor, dim: int = 1, keepdim: bool = False) -> Tensor:
+    return torch.linalg.vector_norm(vectors, dim=dim, keepdim=keepdim)
 
 
 def backwards(sequence: Tensor) -> Tensor:
@@ -239,23 +269,56 @@ def backwards(sequence: Tensor) -> Tensor:
     return sequence[:, list(BACKWARDS_FROM)].flip(2) * sign
 
 
-def _differences() -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:
-    """(64, 64 k): a path's coordinates times this are all vectors that the features are made of. Blocks of
-    64 columns: the chords before a point over each span, those after it, its heading, and where it lies
-    from the centroid, the start and the end. Chords that would leave the stroke are nothing."""
+BLOCKS = 11
+"""Vectors at each point: the chords before it over each span, where it lies from the centroid, the start and the end, the
+chords after it, where the next point (of the last the first) lies from the centroid, and its heading."""
+
+
+def _differences() -> Numbers:
+    """(64, 64 · 11): a path's coordinates times this are all vectors that the features are made of. Chords that would
+    leave the stroke are nothing, but for the steps themselves."""
     unit = np.eye(POINTS)
     place = np.arange(POINTS)
-    blocks: list[np.ndarray[tuple[int, int], np.dtype[np.float64]]] = []
+    chords: dict[bool, list[Numbers]] = {True: [], False: []}
     for before in (True, False):
         for span in RULE.spans:
             inside = (place >= span) & (place < POINTS - span)
             if span == 1 and not before:
-                inside = place < POINTS - 1  # also the steps themselves
+                inside = place < POINTS - 1
             other = np.clip(place - span if before else place + span, 0, POINTS - 1)
             chord = unit[:, place] - unit[:, other] if before else unit[:, other] - unit[:, place]
-            blocks.append(chord * inside)
-    blocks.append(unit[:, np.minimum(place + 1, POINTS - 1)] - unit[:, np.maximum(place - 1, 0)])
-    blocks.append(unit - 1 / POINTS)
-    blocks.append(unit - unit[:, :1])
-    blocks.append(unit - unit[:, -1:])
-    return np.concatenate(blocks, axis=1).astype(np.float32)
+            chords[before].append(chord * inside)
+    towards = unit[:, np.minimum(place + 1, POINTS - 1)] - unit[:, np.maximum(place - 1, 0)]
+    middle = unit - 1 / POINTS
+    ends = [unit - unit[:, :1], unit - unit[:, -1:]]
+    blocks = [*chords[True], middle, *ends, *chords[False], np.roll(middle, -1, axis=1), towards]
+    return np.concatenate(blocks, axis=1)
+
+
+SUMS = ("xx", "yy", "xy", "step", "turn", "absolute turn", "sharpness", "corner", "crossing", "swept")
+"""What is summed over the points of a stroke, in the order of `Features._whole`."""
+
+
+def _linear() -> tuple[Numbers, Numbers]:
+    """What the sums are used for, as sums (B, 10) times (10, 14) plus (14,)."""
+    xx, yy, xy, step, turn, absolute, sharpness, corner, crossing, swept = np.eye(len(SUMS))
+    xx, yy, xy = xx / POINTS, yy / POINTS, xy / POINTS
+    least = RULE.thinnest * (xx + yy)
+    columns = [
+        (yy + least, RULE.floor),
+        (xx + least, RULE.floor),
+        (-2 * xy, 0.0),
+        (xy, 0.0),
+        (0.5 * (xx - yy), 0.0),
+        (xy, 0.0),
+        (0.5 * (xx + yy), 0.0),
+        (step, 0.0),
+        # Turns are summed by halves, crossings in thirds.
+        (turn / np.pi, 0.0),
+        (absolute / np.pi, 0.0),
+        (sharpness / 8, 0.0),
+        (corner / 8, 0.0),
+        (1.5 * crossing, 1.0),
+        (2 * np.pi * swept, 0.0),
+    ]
+    return np.stack([column for column, _ in columns], axis=1), np.array([plus for _, plus in columns])

@@ -22,7 +22,7 @@ from training.relations import Relations
 class FitRule:
     """How the net is trained."""
 
-    epochs: int = 5
+    epochs: int = 4
     both: int = 1
     """Of these the last ones in which strokes are looked at in both drawing senses, as the finished net does."""
     batch: int = 512
@@ -32,8 +32,10 @@ class FitRule:
     decay: float = 1e-2
     smoothing: float = 0.01
     """Label smoothing: some drawings of one kind are another kind by anybody's eye."""
-    strange: float = 0.3
+    strange: float = 0.5
     """Weight of telling strokes that are none of the kinds from the others,"""
+    unsure: float = 0.1
+    """of being sure of no kind where there is none (outlier exposure; Hendrycks, Mazeika and Dietterich 2019),"""
     together: float = 0.3
     """and of telling which strokes are one thing, against the weight of the kinds, 1."""
     clip: float = 5.0
@@ -100,6 +102,9 @@ def loss_of(found: list[Answers], rule: FitRule) -> Tensor:
     none = torch.cat([one.pages.kind[one.pages.there & (one.pages.kind != UNASKED)] == NONE for one in found])
     loss = nn.functional.cross_entropy(kinds, kind, label_smoothing=rule.smoothing)
     loss = loss + rule.strange * nn.functional.binary_cross_entropy_with_logits(strange, none.float())
+    odd = [one.kinds[one.pages.there & (one.pages.kind == NONE)] for one in found]
+    if any(len(logits) for logits in odd):
+        loss = loss - rule.unsure * nn.functional.log_softmax(torch.cat(odd), dim=1).mean()
     paired = [_pairs(one) for one in found if one.kinds.shape[1] > 1]
     if any(len(truth) for _, truth in paired):
         logits, truths = (torch.cat(parts) for parts in zip(*paired, strict=True))

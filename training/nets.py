@@ -14,7 +14,7 @@ import torch
 from torch import Tensor, nn
 
 from sketch.page import STROKE_KINDS
-from training.features import CHANNELS, WHOLE, backwards
+from training.features import CHANNELS, POINTS, WHOLE, backwards
 from training.relations import RELATIONS
 
 
@@ -46,7 +46,7 @@ class StrokeEncoder(nn.Module):
 
     def __init__(self, size: NetSize) -> None:
         super().__init__()
-        wide = 2 * size.width
+        self.wide = wide = 2 * size.width
         self.convolutions = nn.Sequential(
             *_layer(len(CHANNELS), size.width, span=7, stride=2),
             *_layer(size.width, wide, span=5, stride=2),
@@ -56,10 +56,11 @@ class StrokeEncoder(nn.Module):
         self.joined = nn.Sequential(nn.Linear(2 * wide + size.width, size.stroke), nn.ReLU())
 
     def forward(self, sequence: Tensor, whole: Tensor) -> Tensor:
-        found = self.convolutions(torch.cat([sequence, backwards(sequence)]))
-        mean = found.mean(dim=2).reshape(2, whole.shape[0], -1).mean(dim=0)
-        most = found.amax(dim=2).reshape(2, whole.shape[0], -1).amax(dim=0)
-        return self.joined(torch.cat([mean, most, self.overall(whole)], dim=1))
+        senses = torch.cat([sequence, backwards(sequence)], dim=1).reshape(-1, len(CHANNELS), POINTS)
+        found = self.convolutions(senses)
+        found = found.reshape(-1, 2, self.wide, POINTS // 4)
+        both = [found.mean(dim=(1, 3)), found.amax(dim=(1, 3)), self.overall(whole)]
+        return self.joined(torch.cat(both, dim=1))
 
     def in_one_sense(self, sequence: Tensor, whole: Tensor) -> Tensor:
         """The same from one drawing sense alone, half the work: for the greater part of training."""
@@ -81,10 +82,14 @@ class Round(nn.Module):
             nn.Linear(size.stroke + size.message, size.stroke), nn.ReLU(), nn.Linear(size.stroke, size.stroke)
         )
 
-    def unheard(self, strokes: Tensor) -> Tensor:
-        """The same for strokes (…, stroke) that have no company."""
-        silence = torch.zeros_like(strokes[..., : self.own.out_features])
-        return strokes + self.taken(torch.cat([strokes, silence], dim=-1))
+    def unheard(self) -> nn.Sequential:
+        """The same for strokes (…, stroke) without company, less the strokes themselves: a part of its own, without the
+        weights of what is heard."""
+        first = self.taken[0]
+        assert isinstance(first, nn.Linear)
+        bare = nn.Linear(self.own.in_features, first.out_features)
+        bare.load_state_dict({"weight": first.weight[:, : self.own.in_features], "bias": first.bias})
+        return nn.Sequential(bare, *list(self.taken)[1:])
 
     def forward(self, strokes: Tensor, relations: Tensor, company: Tensor) -> tuple[Tensor, Tensor]:
         message = torch.relu(
@@ -127,15 +132,6 @@ class PageNet(nn.Module):
         answer = self.judge(strokes)
         together = self.pairing(message + message.transpose(1, 2))[..., 0]
         return answer[..., :-1], answer[..., -1], together
-
-    def alone(self, encoded: Tensor) -> tuple[Tensor, Tensor]:
-        """The same for strokes (s, stroke) each of which is its page's only one: kinds (s, 9), none of them (s,)."""
-        strokes = encoded + self.standing.bias
-        for look in self.rounds:
-            assert isinstance(look, Round)
-            strokes = look.unheard(strokes)
-        answer = self.judge(strokes)
-        return answer[:, :-1], answer[:, -1]
 
 
 def parameters_of(net: nn.Module) -> int:

@@ -9,56 +9,52 @@ origin loses nothing.
 
 from __future__ import annotations
 
+from typing import cast
+
 import torch
 from torch import Tensor, nn
 
 from training.features import POINTS, Features
-from training.nets import PageNet
+from training.nets import PageNet, Round
 from training.relations import Relations, own_frame, page_frame
+
+LEAST = 1e-100
+"""Instead of a length of nothing where it is divided by."""
 
 
 class Spaced(nn.Module):
     """Cleaning and resampling: repeats have no length, so equal spacing along the path leaves them out.
 
-    -> paths (s, 64, 2) float64 page units, distinct (s,) float32 different points, span (s, 2) float64 the first
-    and last moment of each stroke."""
+    -> paths (s, 64, 2) float64 page units, distinct (s,) float32 different points, first and last (s + 1,) the places
+    of each stroke's ends among the points; of strokes without points, and in the row of the padding, anything."""
 
-    def forward(
-        self, points: Tensor, times: Tensor, stroke: Tensor, page: Tensor
-    ) -> tuple[Tensor, Tensor, Tensor]:
+    def forward(self, points: Tensor, stroke: Tensor, page: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
         strokes = page.shape[0]
-        owner = torch.where(stroke >= 0, stroke, strokes)
-        step = points[1:] - points[:-1]
-        same = (owner[1:] == owner[:-1]).double()
-        length = nn.functional.pad(torch.sqrt((step * step).sum(dim=1)) * same, (1, 0))
-        line = torch.stack([torch.cumsum(length, dim=0), times], dim=1)
-        none, ones = torch.zeros(strokes + 1, dtype=torch.int64), torch.ones_like(owner)
-        counts = none.scatter_add(0, owner, ones)
-        moved = none.scatter_add(0, owner, (length > 0).long())
+        owner = torch.remainder(stroke, strokes + 1)
+        ones = torch.ones_like(owner)
+        counts = torch.zeros(strokes + 1, dtype=torch.int64).scatter_add(0, owner, ones)
         end = torch.cumsum(counts, dim=0)
-        first, last = torch.clamp(torch.stack([end - counts, end - 1]), 0, points.shape[0] - 1)
-        begin, finish = line[first], line[last]
-        total = finish[:, 0] - begin[:, 0]
-        # A point's place along its stroke, 0 to 63; how many points come before each whole place.
-        scaling = torch.stack([begin[:, 0], (POINTS - 1) / torch.where(total > 0, total, 1.0)], dim=1)[owner]
-        place = (line[:, :1] - scaling[:, :1]) * scaling[:, 1:]
-        slot = torch.clamp(torch.ceil(place[:, 0]), 0, POINTS - 1).long()
-        at = torch.zeros((strokes + 1) * POINTS, dtype=torch.int64).scatter_add(
-            0, owner * POINTS + slot, ones
-        )
-        passed = torch.cumsum(at.reshape(-1, POINTS)[:strokes], dim=1) - 1
-        # The step that each wanted place lies on: a last one that leads nowhere counts as its first point.
-        begun, ended = first[:strokes, None], last[:strokes, None]
-        low = torch.maximum(torch.minimum(begun + passed, ended - 1), begun)
-        high = torch.minimum(low + 1, ended)
-        known = torch.cat([points, place], dim=1)
-        here, there = known[low], known[high]
-        width = there[..., 2:] - here[..., 2:]
+        first, last = torch.clamp(end - counts, max=points.shape[0] - 1), end - 1
+        # The way from the very first point on, leaps between strokes included: differences within a stroke matter.
+        length = nn.functional.pad(torch.linalg.vector_norm(points[1:] - points[:-1], dim=1), (1, 0))
+        line = torch.cumsum(length, dim=0)
+        begin = line[first]
+        scale = (POINTS - 1) / torch.clamp(line[last] - begin, min=LEAST)
+        # A point's place along its stroke, 0 to 63; how many points of all come before each whole place.
+        place = (line - begin[owner]) * scale[owner]
+        moves = torch.cumsum((length > 0).float(), dim=0)
+        slot = owner * POINTS + torch.clamp(torch.ceil(place), 0, POINTS - 1).long()
+        at = torch.zeros((strokes + 1) * POINTS, dtype=torch.int64).scatter_add(0, slot, ones)
+        passed = torch.cumsum(at, dim=0).reshape(-1, POINTS)
+        # The step that each wanted place lies on; the end lies on one that leads nowhere.
+        known = torch.cat([points, place[:, None]], dim=1)
+        here = known[passed - 1]
+        ahead = known[torch.minimum(passed, last[:, None])] - here
+        (spot, place_here), (way, width) = here.split([2, 1], dim=2), ahead.split([2, 1], dim=2)
         wanted = torch.arange(POINTS, dtype=torch.float64)[:, None]
-        share = torch.clamp((wanted - here[..., 2:]) / torch.where(width > 0, width, 1.0), 0.0, 1.0)
-        paths = here[..., :2] + share * (there[..., :2] - here[..., :2])
-        span = torch.stack([begin[:strokes, 1], finish[:strokes, 1]], dim=1)
-        return paths, (moved[:strokes] + 1).float(), span
+        share = torch.clamp((wanted - place_here) / torch.clamp(width, min=LEAST), 0.0, 1.0)
+        distinct = moves[last] - moves[first] + 1.0
+        return (spot + share * way)[:strokes], distinct[:strokes], first, last
 
 
 class Encoded(nn.Module):
@@ -72,11 +68,13 @@ class Encoded(nn.Module):
         self.encoder = net.encoder
 
     def forward(
-        self, points: Tensor, times: Tensor, stroke: Tensor, page: Tensor
-    ) -> tuple[Tensor, Tensor, Tensor, Tensor]:
-        paths, distinct, moments = self.spaced(points, times, stroke, page)
-        company = (page[:, None] == page[None, :]).sum() > page.shape[0]
-        return self.encoder(*self.features(own_frame(paths), distinct)), paths, moments, company
+        self, points: Tensor, stroke: Tensor, page: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor, Tensor, Tensor, Tensor]:
+        """-> encoded, paths, first and last, same (s, s): 1 where strokes share a page, company: whether any do."""
+        paths, distinct, first, last = self.spaced(points, stroke, page)
+        same = shared(page)
+        company = same.sum() > page.shape[0]
+        return self.encoder(*self.features(own_frame(paths), distinct)), paths, first, last, same, company
 
 
 class InCompany(nn.Module):
@@ -89,28 +87,51 @@ class InCompany(nn.Module):
         self.temperature = temperature
 
     def forward(
-        self, encoded: Tensor, paths: Tensor, moments: Tensor, page: Tensor, timed: Tensor
+        self,
+        encoded: Tensor,
+        paths: Tensor,
+        first: Tensor,
+        last: Tensor,
+        same: Tensor,
+        times: Tensor,
+        timed: Tensor,
     ) -> tuple[Tensor, Tensor, Tensor]:
-        same = page[:, None] == page[None, :]
-        itself = torch.eye(page.shape[0])
-        company = same.float() - itself
-        on_page, standing = page_frame(paths[None], same[None])
-        relations = self.relations(on_page, moments[None], timed[None])
+        span = torch.stack([times[first], times[last]], dim=1)[: timed.shape[0]]
+        return self.read(encoded, paths, span, same, timed)
+
+    def read(
+        self, encoded: Tensor, paths: Tensor, span: Tensor, same: Tensor, timed: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """span (s, 2): the first and last moment of each stroke; same (s, s): 1 where they share a page."""
+        itself = torch.eye(timed.shape[0])
+        company = same - itself
+        on_page, standing = page_frame(paths[None], same[None] > 0)
+        relations = self.relations(on_page, span[None], timed[None])
         kinds, strange, together = self.net(encoded[None], standing, relations, company[None])
         return (*_told(kinds[0], strange[0], self.temperature), torch.sigmoid(together[0]) * company + itself)
 
 
 class Alone(nn.Module):
-    """The same answers where no two strokes share a page: half the work."""
+    """The same answers where no two strokes share a page: half the work. Of the net as it is now."""
 
     def __init__(self, net: PageNet, temperature: float) -> None:
         super().__init__()
         self.net = net
+        self.rounds = nn.ModuleList(cast(Round, look).unheard() for look in net.rounds)
         self.temperature = temperature
 
-    def forward(self, encoded: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-        kinds, strange = self.net.alone(encoded)
-        return (*_told(kinds, strange, self.temperature), torch.eye(encoded.shape[0]))
+    def forward(self, encoded: Tensor, same: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """Each stroke shares a page with itself only: `same` is what they are one thing with."""
+        strokes = encoded + self.net.standing.bias
+        for taken in self.rounds:
+            strokes = strokes + taken(strokes)
+        answer = self.net.judge(strokes)
+        return (*_told(answer[:, :-1], answer[:, -1], self.temperature), 1.0 * same)
+
+
+def shared(page: Tensor) -> Tensor:
+    """1 where two strokes share a page, (s, s)."""
+    return (page[:, None] == page[None, :]).float()
 
 
 def _told(kinds: Tensor, strange: Tensor, temperature: float) -> tuple[Tensor, Tensor]:
@@ -133,12 +154,14 @@ class RawReader(nn.Module):
     def forward(
         self, points: Tensor, times: Tensor, stroke: Tensor, page: Tensor, timed: Tensor
     ) -> tuple[Tensor, Tensor, Tensor]:
-        encoded, paths, moments, company = self.encoded(points, times, stroke, page)
-        return self.in_company(encoded, paths, moments, page, timed) if company else self.alone(encoded)
+        encoded, paths, first, last, same, company = self.encoded(points, stroke, page)
+        if company:
+            return self.in_company(encoded, paths, first, last, same, times, timed)
+        return self.alone(encoded, same)
 
     def read(
         self, paths: Tensor, distinct: Tensor, moments: Tensor, page: Tensor, timed: Tensor
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The same from strokes at equal spacing, always by way of the whole net."""
         encoded = self.encoded.encoder(*self.encoded.features(own_frame(paths), distinct))
-        return self.in_company(encoded, paths, moments, page, timed)
+        return self.in_company.read(encoded, paths, moments, shared(page), timed)

@@ -31,6 +31,8 @@ class RelationRule:
     """A stroke's size over its page's is not told apart below this."""
     least: float = 1e-3
     """A stroke's size over the page's counts as this at least: a dot has a neighbourhood, too."""
+    stillest: float = 1e-30
+    """A stroke's size is never less, in any unit, where it is divided by."""
     near: tuple[float, float] = (0.06, 0.4)
     """Distances over the greater size that a closeness falls to one half at: touching, and beside."""
     directions: int = 12
@@ -82,7 +84,7 @@ class Relations(nn.Module):
             ],
             dim=3,
         )
-        relative = torch.sqrt(distances).to(paths.dtype) / scale[..., None]
+        relative = torch.sqrt(torch.relu(distances)).to(paths.dtype) / scale[..., None]
         closeness = [reach / (reach + relative) for reach in RULE.near]
         # Reach in twelve directions: one stroke encloses another where it reaches further in all of them.
         reach = (sketched @ self.support).amax(dim=2)
@@ -127,8 +129,8 @@ class Relations(nn.Module):
 def own_frame(paths: Tensor) -> Tensor:
     """paths (B, 64, 2) in any frame -> float32 in each stroke's own; a path that never moved is all zeros."""
     low, high = paths.amin(dim=1, keepdim=True), paths.amax(dim=1, keepdim=True)
-    size = torch.sqrt(((high - low) ** 2).sum(dim=2, keepdim=True))
-    return ((paths - 0.5 * (low + high)) / torch.where(size > 0, size, 1.0)).float()
+    size = torch.linalg.vector_norm(high - low, dim=2, keepdim=True)
+    return ((paths - 0.5 * (low + high)) / torch.clamp(size, min=RULE.stillest)).float()
 
 
 def page_frame(paths: Tensor, same: Tensor) -> tuple[Tensor, Tensor]:
@@ -156,10 +158,11 @@ def _next(later: Tensor, by: float) -> Tensor:
 
 def _between(one: Tensor, other: Tensor) -> Tensor:
     """Squared distances between all points of all pairs: (P, N, a, 2), (P, N, b, 2) -> (P, N, a, N, b), as one
-    product of matrices, in doubles: |p|² − 2 p·q + |q|² cancels where the points meet."""
+    product of matrices, in doubles: |p|² − 2 p·q + |q|² cancels where the points meet, and may be a little less than
+    nothing."""
     pages, count, here = one.shape[0], one.shape[1], one.shape[2]
     (px, py), (qx, qy) = (points.double().flatten(1, 2).unbind(dim=2) for points in (one, other))
     left = torch.stack([-2.0 * px, -2.0 * py, px * px + py * py, torch.ones_like(px)], dim=2)
     # Laid out as it is needed: onnxruntime-web cannot multiply a transposed matrix of doubles.
     right = torch.stack([qx, qy, torch.ones_like(qx), qx * qx + qy * qy], dim=1)
-    return torch.relu(left @ right).reshape(pages, count, here, count, other.shape[2])
+    return (left @ right).reshape(pages, count, here, count, other.shape[2])

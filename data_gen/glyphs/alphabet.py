@@ -11,6 +11,7 @@ uniform parametrisation).
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from functools import cache
 from importlib import resources
 from itertools import pairwise
@@ -65,12 +66,39 @@ def _parsed(file: str) -> dict[str, tuple[tuple[FloatArray, ...], ...]]:
     }
 
 
+def objects() -> tuple[str, ...]:
+    """Things that people doodle and that mean nothing here: a whale, a key, a tent."""
+    return tuple(_drawn())
+
+
+def knots(thing: str) -> tuple[tuple[FloatArray, tuple[int, ...]], ...]:
+    """The strokes of one of `objects()` before they are curves: the points that `curve` goes through, (n, 2), and
+    which of them are corners. Raises KeyError where there is no such thing."""
+    return _drawn()[thing]
+
+
+def curve(points: FloatArray, corners: Sequence[int]) -> FloatArray:
+    """A stroke through the points, sharp at the corners (places among the points, in order) alone."""
+    ends = [0, *corners, len(points) - 1]
+    pieces = [_catmull_rom(points[a : b + 1]) for a, b in pairwise(ends)]
+    return readonly(np.concatenate([pieces[0], *(piece[1:] for piece in pieces[1:])]))
+
+
+@cache
+def _drawn() -> dict[str, tuple[tuple[FloatArray, tuple[int, ...]], ...]]:
+    text = resources.files("data_gen.glyphs").joinpath("objects.json").read_text("utf-8")
+    raw: dict[str, str] = json.loads(text)
+    return {thing: tuple(_knots(stroke) for stroke in way.split("/")) for thing, way in raw.items()}
+
+
 def _curve(text: str) -> FloatArray:
+    return curve(*_knots(text))
+
+
+def _knots(text: str) -> tuple[FloatArray, tuple[int, ...]]:
     nodes = [node.strip() for node in text.split(",")]
     points = np.array([[float(number) for number in node.rstrip("*").split()] for node in nodes])
-    corners = [0, *(k for k in range(1, len(nodes) - 1) if nodes[k].endswith("*")), len(nodes) - 1]
-    pieces = [_catmull_rom(points[a : b + 1]) for a, b in pairwise(corners)]
-    return readonly(np.concatenate([pieces[0], *(piece[1:] for piece in pieces[1:])]))
+    return points, tuple(k for k in range(1, len(nodes) - 1) if nodes[k].endswith("*"))
 
 
 def _catmull_rom(points: FloatArray) -> FloatArray:

@@ -33,13 +33,14 @@ def feeds(strokes: Sequence[Stroke], page: NDArray[np.int64] | None = None) -> F
     """The inputs of the ONNX file for these strokes, at least one. page: each stroke's page, (s,); all of one
     page by default."""
     counts = [len(stroke) for stroke in strokes]
+    points = [stroke.points for stroke in strokes]
+    times = [np.zeros(len(stroke)) if stroke.times is None else stroke.times for stroke in strokes]
+    alone = len(counts) == 1  # the usual question of an app while one draws
     return {
-        "points": np.concatenate([stroke.points for stroke in strokes]),
-        "times": np.concatenate(
-            [np.zeros(len(stroke)) if stroke.times is None else stroke.times for stroke in strokes]
-        ),
-        "stroke": np.repeat(np.arange(len(strokes)), counts),
-        "page": np.zeros(len(strokes), dtype=np.int64) if page is None else page,
+        "points": points[0] if alone else np.concatenate(points),
+        "times": times[0] if alone else np.concatenate(times),
+        "stroke": np.repeat(np.arange(len(counts)), counts),
+        "page": np.zeros(len(counts), dtype=np.int64) if page is None else page,
         "timed": np.array([stroke.times is not None for stroke in strokes], dtype=np.float32),
     }
 

@@ -8,6 +8,7 @@ others: what it is, whether it is anything known, and which strokes are one thin
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -17,8 +18,8 @@ import onnxruntime
 from numpy.typing import NDArray
 
 from recognizer.claims import Bonds, Claim
-from recognizer.learned.raw import feeds, windows
-from sketch.ink import FloatArray, Ink
+from recognizer.learned.raw import WINDOW, feeds, windows
+from sketch.ink import FloatArray, Ink, Stroke
 from sketch.page import STROKE_KINDS, StrokeKind
 
 WEIGHTS = Path(__file__).parent / "weights" / "strokes.onnx"
@@ -34,6 +35,9 @@ INPUTS = {
 
 BOUND = 0.05
 """Pairs of strokes less likely than this to be one thing are not told."""
+
+
+_NOBODY = np.empty(0, dtype=np.int64)
 
 
 class WeightsError(ValueError):
@@ -58,25 +62,37 @@ class Learned:
 
     def read(self, ink: Ink) -> tuple[tuple[Claim, ...], Bonds]:
         """One claim per stroke, and which strokes are one thing."""
+        if 0 < len(ink) <= WINDOW.most:
+            scores, strange, together = self._answers(ink.strokes)
+            first, second = np.nonzero(together > BOUND) if len(ink) > 1 else (_NOBODY, _NOBODY)
+            ordered = first < second
+            pairs = np.stack([first[ordered], second[ordered]], axis=1)
+            return self._claims(scores, strange), Bonds(pairs, together[pairs[:, 0], pairs[:, 1]])
+        return self._by_windows(ink)
+
+    def _by_windows(self, ink: Ink) -> tuple[tuple[Claim, ...], Bonds]:
+        """The same of a page that is too large to be read at once, or empty."""
         scores = np.empty((len(ink), len(STROKE_KINDS)))
         strange = np.empty(len(ink))
         pairs, bonds = [np.empty((0, 2), dtype=np.int64)], [np.empty(0)]
         for strokes, answered in windows(ink):
             order = np.argsort(strokes)
-            kinds, odd, together = self._answers(ink, strokes[order])
+            kinds, odd, together = self._answers([ink[index] for index in strokes[order].tolist()])
             place = np.argsort(order)[:answered]
             scores[strokes[:answered]], strange[strokes[:answered]] = kinds[place], odd[place]
             first, second = np.nonzero(np.triu(together > BOUND, 1))
             bonds.append(together[first, second])
             pairs.append(np.stack([strokes[order][first], strokes[order][second]], axis=1))
-        claims = tuple(
-            Claim(row, odd > self._reject) for row, odd in zip(scores, strange.tolist(), strict=True)
-        )
-        return claims, _each_once(np.concatenate(pairs), np.concatenate(bonds))
+        return self._claims(scores, strange), _each_once(np.concatenate(pairs), np.concatenate(bonds))
 
-    def _answers(self, ink: Ink, strokes: NDArray[np.int64]) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Kinds (s, 9), strange (s,) and together (s, s) of these strokes of the page."""
-        kinds, odd, together = self._session.run(None, feeds([ink[index] for index in strokes.tolist()]))
+    def _claims(self, scores: FloatArray, strange: FloatArray) -> tuple[Claim, ...]:
+        return tuple(
+            Claim.trusted(row, odd > self._reject) for row, odd in zip(scores, strange.tolist(), strict=True)
+        )
+
+    def _answers(self, strokes: Sequence[Stroke]) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Kinds (s, 9), strange (s,) and together (s, s) of these strokes of a page, in drawing order."""
+        kinds, odd, together = self._session.run(None, feeds(strokes))
         scores = np.asarray(kinds, dtype=np.float64)
         scores /= scores.sum(axis=1, keepdims=True)
         return scores, np.asarray(odd, dtype=np.float64), np.asarray(together, dtype=np.float64)
@@ -101,6 +117,8 @@ def _session(weights: Path) -> tuple[Any, float]:
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = 1
     options.inter_op_num_threads = 1
+    # Plans of memory pay where shapes come again: strokes have any number of points.
+    options.enable_mem_pattern = False
     options.log_severity_level = 3
     try:
         session = onnxruntime.InferenceSession(str(weights), options, providers=["CPUExecutionProvider"])

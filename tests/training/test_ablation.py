@@ -51,3 +51,9 @@ def test_what_the_log_holds_is_not_run_again(tmp_path: Path) -> None:
     assert ablation.main(["--ink", str(tmp_path / "rows.jsonl"), "--out", str(out), "--threads", "1"]) == 0
     table = out.read_text()
     assert all(name in table for name in names if name != ALL) and "66.7 %" in table
+
+
+def test_a_name_that_is_no_variation_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        ablation.main(["--ink", str(tmp_path / "rows.jsonl"), "--only", "luck"])
+    assert "luck" in capsys.readouterr().err

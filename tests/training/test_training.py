@@ -18,14 +18,14 @@ from training.calibrate import temperature
 from training.dataset import Corpus, corpus_of, make_corpus
 from training.drawings import NONE, UNASKED, Plan, drawings
 from training.export import export
-from training.features import Features, backwards
+from training.features import CHANNELS, WHOLE, Features, backwards
 from training.fit import FitRule, fit, say
 from training.nets import NetSize, PageNet, parameters_of
 from training.parity import parity
 from training.reader import RawReader
 from training.relations import own_frame
 
-PLAN = Plan(alone=300, strewn=20, pages=6, doodles=30)
+PLAN = Plan(alone=300, strewn=20, pages=6, doodles=30, arrows=10, signs=4)
 QUICK = FitRule(epochs=3, both=1, batch=64)
 SMALL = NetSize(width=8, stroke=16, message=8, heads=2)
 
@@ -42,7 +42,7 @@ def fitted(corpus: Corpus) -> PageNet:
 
 
 def test_a_corpus_is_remade_from_its_seed_whatever_the_number_of_processes() -> None:
-    plan, shard = Plan(alone=80, strewn=8, pages=4, doodles=8), 25
+    plan, shard = Plan(alone=80, strewn=8, pages=4, doodles=8, arrows=4, signs=4), 25
     one, other = (make_corpus(plan, seed=3, jobs=jobs, shard=shard) for jobs in (1, 2))
     for name in ("paths", "distinct", "span", "timed", "kind", "thing", "first"):
         assert np.array_equal(getattr(one, name), getattr(other, name)), name
@@ -54,7 +54,9 @@ def test_the_corpus_holds_every_kind_alone_and_in_company_and_strokes_that_are_n
 
 
 def test_doodles_kept_for_measuring_are_not_learned_from() -> None:
-    drawn = list(drawings(Plan(alone=0, strewn=0, pages=0, doodles=200), seed=5, part=0, parts=1))
+    drawn = list(
+        drawings(Plan(alone=0, strewn=0, pages=0, doodles=200, arrows=0, signs=0), seed=5, part=0, parts=1)
+    )
     assert 80 < len(drawn) < 200
     assert all(set(one.kinds) == {NONE} for one in drawn)
 
@@ -69,6 +71,38 @@ def test_features_backwards_are_those_of_the_stroke_drawn_backwards(corpus: Corp
     back, same = Features()(paths.flip(1), distinct)
     assert torch.allclose(backwards(forth), back, atol=1e-4)
     assert torch.allclose(whole, same, atol=1e-4)
+
+
+def test_the_features_of_a_ring_are_those_of_a_ring() -> None:
+    angle = torch.arange(64) * (2 * np.pi / 63)
+    ring = 0.5**1.5 * torch.stack([torch.cos(angle), torch.sin(angle)], dim=1)  # its box has diagonal 1
+    sequence, whole = Features()(ring[None], torch.tensor([60.0]))
+    told = dict(zip(WHOLE, whole[0].tolist(), strict=True))
+    assert told["gap of the ends over size"] == pytest.approx(0, abs=1e-5)
+    assert told["log length over size"] == pytest.approx(np.log(2 * np.pi * 0.5**1.5), abs=2e-3)
+    assert told["width of the lesser axis over the greater"] == pytest.approx(1, abs=0.05)
+    assert told["turning, signed, turns"] == pytest.approx(1, abs=0.05)
+    assert told["turning, absolute, turns"] == pytest.approx(1, abs=0.05)
+    assert told["corners"] == told["log of the crossings"] == pytest.approx(0, abs=1e-6)
+    assert told["compactness of the enclosed area"] == pytest.approx(
+        1, abs=5e-3
+    )  # 4 pi A over the square of the length
+    assert told["length over the hull's perimeter"] == pytest.approx(1, abs=5e-3)
+    assert told["spread of the radius about the centroid"] == pytest.approx(0, abs=0.02)
+    assert sequence[0, CHANNELS.index("distance from the centroid")].tolist() == pytest.approx(
+        [2 * 0.5**1.5] * 64, abs=0.03
+    )
+
+
+def test_a_line_that_crosses_itself_is_told() -> None:
+    corners = torch.tensor([(-0.35, -0.35), (0.35, 0.35), (0.35, -0.35), (-0.35, 0.35)])
+    places = torch.linspace(0, 2.9999, 64)
+    low, share = places.long(), (places % 1)[:, None]
+    path = corners[low] + share * (corners[low + 1] - corners[low])
+    sequence, whole = Features()(path[None], torch.tensor([60.0]))
+    assert whole[0, WHOLE.index("log of the crossings")].item() == pytest.approx(np.log(2), abs=0.05)
+    crossings = sequence[0, CHANNELS.index("crossings here")]
+    assert torch.nonzero(crossings > 0.1)[:, 0].tolist() == pytest.approx([10, 11, 52, 53], abs=1.5)
 
 
 def test_the_same_seed_gives_the_same_weights_also_after_a_stop(
@@ -122,7 +156,9 @@ def test_the_onnx_file_stands_alone_and_takes_any_number(exported: tuple[RawRead
 
 
 def test_a_page_that_is_too_long_is_learned_from_by_its_first_strokes() -> None:
-    (page, *_) = drawings(Plan(alone=0, strewn=0, pages=1, doodles=0), seed=3, part=0, parts=1)
+    (page, *_) = drawings(
+        Plan(alone=0, strewn=0, pages=1, doodles=0, arrows=0, signs=0), seed=3, part=0, parts=1
+    )
     long = type(page)(page.strokes * 30, page.kinds * 30, page.things * 30)
     assert corpus_of([long], np.random.default_rng(0)).sizes.tolist() == [64]
 
