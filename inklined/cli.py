@@ -13,13 +13,24 @@ from collections.abc import Sequence
 
 import typer
 
-from inklined.commands import compare, generate, observe, problems, reading, recognizers, train
+from inklined.commands import (
+    check_recognizer,
+    compare,
+    data,
+    generate,
+    observe,
+    problems,
+    reading,
+    recognizers,
+    train,
+)
 
 HELP = """Ink that knows physics: reads pages of pen strokes, sets them in motion, and compares
 recognizers by what comes out. Without a command: inklined compare."""
 
 REPEATED: dict[str, tuple[str, ...]] = {
     "compare": ("--ink", "--recognizer", "--train"),
+    "export": ("--label",),
     "problems": ("--family", "--recognizer"),
     "observe": ("--quantity",),
 }
@@ -37,6 +48,8 @@ app = typer.Typer(
 )
 compare.register(app)
 recognizers.register(app)
+data.register(app)
+check_recognizer.register(app)
 reading.register(app)
 observe.register(app)
 generate.register(app)
@@ -90,6 +103,7 @@ def _verdict(error: BaseException) -> tuple[str, int]:
     from inklined.output import OutputError
     from physics.observables import ObservableError
     from physics.scene import SceneError
+    from recognizer.outside.process import RecognizerError
     from sketch.files.errors import FileError
     from sketch.formula.parse import FormulaError
     from sketch.ink import InkError
@@ -110,6 +124,7 @@ def _verdict(error: BaseException) -> tuple[str, int]:
             | SceneError()
             | ObservableError()
             | OutputError()
+            | RecognizerError()
         ):
             return _one_line(str(error)), 1
         case BrokenPipeError():
