@@ -17,20 +17,28 @@ from inklined.commands import (
     check_recognizer,
     compare,
     data,
+    evaluate,
     generate,
     observe,
     problems,
     reading,
     recognizers,
+    reproduce,
+    studies,
     train,
 )
+from inklined.typed import TYPED
 
 HELP = """Ink that knows physics: reads pages of pen strokes, sets them in motion, and compares
 recognizers by what comes out. Without a command: inklined compare."""
 
 REPEATED: dict[str, tuple[str, ...]] = {
     "compare": ("--ink", "--recognizer", "--train"),
+    "evaluate": ("--recognizer",),
     "export": ("--label",),
+    "early": ("--recognizer",),
+    "protocol": ("--recognizer", "--templates"),
+    "stress": ("--recognizer", "--axis"),
     "problems": ("--family", "--recognizer"),
     "observe": ("--quantity",),
 }
@@ -49,6 +57,9 @@ app = typer.Typer(
 compare.register(app)
 recognizers.register(app)
 data.register(app)
+studies.register(app)
+reproduce.register(app)
+evaluate.register(app)
 check_recognizer.register(app)
 reading.register(app)
 observe.register(app)
@@ -64,6 +75,7 @@ def main() -> None:
 
 def run(arguments: Sequence[str]) -> int:
     """Runs one command line and returns its exit code. With INKLINED_DEBUG set, errors are raised."""
+    typed = TYPED.set(tuple(arguments) or ("compare",))
     try:
         code = app(spread(arguments) or ["compare"], prog_name="inklined", standalone_mode=False)
     except BaseException as error:
@@ -75,6 +87,8 @@ def run(arguments: Sequence[str]) -> int:
     else:
         if code == INTERRUPTED:  # typer has caught the signal and says it by this code
             _complain("interrupted")
+    finally:
+        TYPED.reset(typed)
     return code if isinstance(code, int) else 0
 
 
