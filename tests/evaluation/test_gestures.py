@@ -54,11 +54,14 @@ def test_a_right_angle_bends_by_a_right_angle_and_covers_a_square():
     assert found.size_error == pytest.approx(2500)
 
 
-def test_strokes_in_another_order_cost_order_and_nothing_of_the_shape():
+def test_strokes_in_another_order_cost_order_and_no_more_of_the_shape_than_resampling_does():
     axis = task_axis([drawing(*CROSS)] * 2)
     found = relative_accuracy(drawing(*CROSS[::-1]), axis)
-    assert found.shape_error == pytest.approx(0, abs=1e-9)
-    assert found.order_error > 100
+    step = (
+        200 * np.sqrt(2) / 31
+    )  # the join of the strokes falls between two points: each lies up to half a step beside
+    assert found.shape_error <= step / 2
+    assert found.order_error > 10 * 32 * found.shape_error
     assert relative_accuracy(drawing(CROSS[0]), axis).stroke_error == -1
 
 
