@@ -7,6 +7,7 @@ of the net's probability for its own claim that costs (occlusion, after Zeiler a
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -22,7 +23,7 @@ from recognizer.geometric.cusps import cusps
 from recognizer.preprocess import spaced, unit_path
 from sketch.figures import Pen, draw_path
 from sketch.ink import FloatArray, Ink, Stroke
-from sketch.svg import Look, pen_for, picture, view_around
+from sketch.svg import Look, View, pen_for, picture, view_around
 
 SHOWN = 12
 """Disagreements that a report shows."""
@@ -48,13 +49,13 @@ class Disagreement:
 
 
 def disagreements(contest: Contest, most: int = SHOWN) -> list[Disagreement]:
-    """The rows of all suites on which some but not all are right, those first where the wrong are surest; as many of each
-    suite."""
+    """Rows of all suites on which some but not all are right, kind by kind, those first where the wrong are surest; as many of
+    each suite."""
     found: list[Disagreement] = []
     suites = [(suite, results) for suite, results in contest.stroke_suites() if suite.labels]
     net = rival("learned") if "learned" in contest.names else None
     for suite, results in suites:
-        rows = _chosen(results, max(1, most // len(suites)))
+        rows = _chosen(suite, results, max(1, most // len(suites)))
         found += [_disagreement(suite, results, row, net) for row in rows]
     return found
 
@@ -75,21 +76,34 @@ def attention(stroke: Stroke, net: Recognizer) -> FloatArray:
     return lost
 
 
-def _chosen(results: Sequence[StrokeResult], most: int) -> list[int]:
-    """Rows by how sure the wrong ones are that others have right."""
+def _chosen(suite: StrokeSuite, results: Sequence[StrokeResult], most: int) -> list[int]:
+    """Rows by how sure the wrong ones are that others have right, the kinds in turn."""
     if not results or not results[0].sure:
         return []
     right = np.array([result.right for result in results])
     wrong = np.where(right, 0.0, np.array([result.sure for result in results])).max(axis=0)
     differ = np.flatnonzero(right.any(axis=0) & ~right.all(axis=0))
-    return differ[np.argsort(-wrong[differ], kind="stable")][:most].tolist()
+    ranked = differ[np.argsort(-wrong[differ], kind="stable")].tolist()
+    turns: Counter[str] = Counter()
+    turn: dict[int, int] = {}
+    for row in ranked:
+        turn[row] = turns[suite.labels[row]]
+        turns[suite.labels[row]] += 1
+    return sorted(ranked, key=lambda row: turn[row])[:most]
+
+
+def _square(view: View) -> View:
+    """The view as wide as high."""
+    left, top, width, height = view
+    side = max(width, height)
+    return (left - (side - width) / 2, top - (side - height) / 2, side, side)
 
 
 def _disagreement(
     suite: StrokeSuite, results: Sequence[StrokeResult], row: int, net: Recognizer | None
 ) -> Disagreement:
     ink = suite.inks[row]
-    view = view_around(np.concatenate([stroke.points for stroke in ink]), LOOK)
+    view = _square(view_around(np.concatenate([stroke.points for stroke in ink]), LOOK))
     pen = pen_for(view, LOOK)
     corners, crossed = _marks(ink)
     pieces = [draw_path(stroke.points, pen, PATH, 1.8) for stroke in ink]

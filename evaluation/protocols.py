@@ -25,7 +25,7 @@ from evaluation.suites import claim_of_row
 from recognizer.published import PUBLISHED
 from recognizer.samples import Sample
 from sketch.files.jsonl import Row
-from sketch.ink import Ink
+from sketch.ink import Ink, Stroke
 from sketch.page import STROKE_KINDS, StrokeKind
 
 Kind = Literal["user-dependent", "user-independent", "zero-shot"]
@@ -154,8 +154,8 @@ def examine(
 
 def beginning(ink: Ink, fraction: float) -> Ink:
     """What is to be seen of the ink when that fraction of its length has been drawn: at least its first point."""
-    from sketch.ink import Stroke
-
+    if fraction >= 1:
+        return ink
     lengths = [np.linalg.norm(np.diff(stroke.points, axis=0), axis=1) for stroke in ink]
     left = fraction * float(sum(each.sum() for each in lengths))
     shown: list[Stroke] = []

@@ -11,7 +11,7 @@ from markupsafe import Markup
 from evaluation.contest import Contest
 from evaluation.disagreements import disagreements
 from evaluation.exports import as_csv, as_latex
-from evaluation.graph import line_graph
+from evaluation.graph import GraphLayout, line_graph
 from evaluation.illustrations import illustrate
 from evaluation.leaderboard import Standings
 from evaluation.leaderboard_tables import standing_tables
@@ -28,6 +28,7 @@ from evaluation.suites import StrokeSuite
 from evaluation.table import Table
 from evaluation.textbook_pens import pens_table
 
+RISING, FALLING = GraphLayout(names_left=True), GraphLayout()
 MOST_PAGES = 3
 """Pages shown on which the motions of the readings differ."""
 
@@ -60,7 +61,7 @@ def curves_of(contest: Contest) -> list[dict[str, Any]]:
             _figure(
                 "Divergence of the motions",
                 f"mean over {n} pages, of the diagram's size",
-                line_graph(curves, "time, s", "motion error, %"),
+                line_graph(curves, "time, s", "motion error, %", RISING),
             )
         )
     return figures
@@ -76,7 +77,11 @@ def stress_of(contest: Contest) -> dict[str, Any]:
         curves = {curve.name: _along(curve) for curve in own}
         what = "strokes" if measure == "accuracy" else "pages"
         figures.append(
-            _figure(AXES[axis].about, f"{n} {what} at each level", line_graph(curves, _axis(axis), told))
+            _figure(
+                AXES[axis].about,
+                f"{n} {what} at each level",
+                line_graph(curves, _axis(axis), told, FALLING if measure == "accuracy" else RISING),
+            )
         )
     return {"figures": figures, "tables": stress_tables(contest.curves, contest.groups)}
 
@@ -143,9 +148,11 @@ def _confidence(suite: StrokeSuite, results: Sequence[StrokeResult]) -> list[dic
         risks[result.name] = (100 * np.array(risk.coverage), 100 * np.array(risk.risk))
     about = f"{suite.name}, n = {len(suite.labels)}"
     return [
-        _figure("Reliability", about, line_graph(reliable, "confidence, %", "right, %")),
+        _figure("Reliability", about, line_graph(reliable, "confidence, %", "right, %", RISING)),
         _figure(
-            "Risk when the unsure are refused", about, line_graph(risks, "kept, %", "wrong of the kept, %")
+            "Risk when the unsure are refused",
+            about,
+            line_graph(risks, "kept, %", "wrong of the kept, %", RISING),
         ),
     ]
 

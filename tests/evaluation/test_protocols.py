@@ -95,6 +95,7 @@ def test_nobody_is_examined_who_cannot_learn_and_nothing_known_is_tested_untaugh
         protocols.zero_shot(rows)
 
 
+@settings(max_examples=40, deadline=None)
 @given(inks(), st.floats(0, 1))
 def test_the_beginning_of_ink_is_its_first_points(ink: Ink, fraction: float):
     shown = protocols.beginning(ink, fraction)
@@ -160,7 +161,7 @@ def test_each_axis_does_what_it_says():
     assert at("gap", 0.2).points[-1, 0] == pytest.approx(80, abs=0.6)
     assert np.ptp(at("rotation", 90.0).points[:, 0]) == pytest.approx(0, abs=1e-9)
     assert np.ptp(at("scale", 4.0).points[:, 0]) == pytest.approx(400)
-    assert at("order", 1.0).points[0, 0] == 100 and at("order", 1.0).times.tolist() == line[0].times.tolist()
+    assert at("order", 1.0).points[0, 0] == 100 and at("order", 1.0).times == pytest.approx(line[0].times)
     assert at("time", 1.0).times is None
     shaken = at("tremor", 0.02).points - line[0].points
     assert np.sqrt((shaken**2).sum(axis=1).mean()) == pytest.approx(2.0, rel=0.1)
@@ -176,7 +177,7 @@ def test_stress_is_the_contest_at_the_first_level_and_the_worst_group_the_lowest
     )
     recalls = [np.mean([g.right for g in right if g.label == kind]) for kind in {item.kind for item in made}]
     assert [curve.axis for curve in curves] == ["gap", "order"]
-    assert {curve.values[0].value for curve in curves} == {pytest.approx(float(np.mean(recalls)))}
+    assert [curve.values[0].value for curve in curves] == pytest.approx([float(np.mean(recalls))] * 2)
     (one,) = groups(["paper"], 30, 6)
     assert list(one.values) == ["adult", "child", "tremor", "low_vision"]
     assert one.values[one.worst].value == min(value.value for value in one.values.values())
