@@ -184,9 +184,8 @@ def tallies(run: Run, folder: Path) -> list[Tally]:
             raise FileError(path, f"is no part of a run: {error}; delete it and run again") from None
         if part.num_rows != shard.count * len(shard.names):
             raise FileError(path, f"has {part.num_rows} rows; needed are {shard.count * len(shard.names)}")
-        rows = part.to_pydict()
-        for label, name, claimed in zip(rows["label"], rows["name"], rows["claimed"], strict=True):
-            confusion[name][kinds[label], kinds[claimed]] += 1
+        for row in part.group_by(["name", "label", "claimed"]).aggregate([([], "count_all")]).to_pylist():
+            confusion[row["name"]][kinds[row["label"]], kinds[row["claimed"]]] += row["count_all"]
     return [Tally(name, int(table.sum()), table) for name, table in confusion.items()]
 
 
