@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from data_gen.textbook.roster import names as every_problem
 from evaluation.lessons import Lesson
-from evaluation.page_contest import PageResult, page_contest
+from evaluation.page_contest import ORACLE, PageResult, page_contest
 from evaluation.parallel import Progress, silent
+from evaluation.stress import AXES
+from evaluation.stress_contest import Curve, Groups, groups, motion_curves, stroke_curves
 from evaluation.stroke_contest import StrokeResult, stroke_contest
 from evaluation.suites import (
     PageSuite,
@@ -17,12 +20,14 @@ from evaluation.suites import (
     generated_strokes,
     strokes_from_files,
 )
+from evaluation.textbook_pens import Penned, read_problems
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Contest:
     """Who took part, on what, with what result. seed: of generated ink, None for files; pages: None
-    where there are labelled strokes only."""
+    where there are labelled strokes only; more: further suites of strokes with their results; penned: textbook problems drawn
+    by simulated pens; curves, groups: what was borne under stress."""
 
     names: tuple[str, ...]
     seed: int | None
@@ -30,6 +35,35 @@ class Contest:
     stroke_results: tuple[StrokeResult, ...]
     pages: PageSuite | None
     page_results: tuple[PageResult, ...]
+    more: tuple[tuple[StrokeSuite, tuple[StrokeResult, ...]], ...] = ()
+    penned: tuple[Penned, ...] = ()
+    curves: tuple[Curve, ...] = ()
+    groups: tuple[Groups, ...] = ()
+
+    def stroke_suites(self) -> tuple[tuple[StrokeSuite, tuple[StrokeResult, ...]], ...]:
+        """All suites of strokes, each with every recognizer's result."""
+        return ((self.strokes, self.stroke_results), *self.more)
+
+    def hashes(self) -> dict[str, str]:
+        """Of everything that was compared on, by suite."""
+        named = {suite.name: suite.hash for suite, _ in self.stroke_suites() if suite.labels}
+        return (
+            named
+            if self.pages is None or not self.pages.pages
+            else {**named, self.pages.name: self.pages.hash}
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Extent:
+    """How much is generated: strokes, pages; pens: draws of every textbook problem; stress: strokes at each level of stress,
+    stress_pages: pages at each."""
+
+    strokes: int = 0
+    pages: int = 0
+    pens: int = 0
+    stress: int = 0
+    stress_pages: int = 0
 
 
 def contest_on_files(
@@ -62,3 +96,36 @@ def contest_on_generated(
         whole,
         page_contest(whole, names, jobs, progress),
     )
+
+
+def whole_contest(
+    paths: Sequence[Path],
+    extent: Extent,
+    seed: int,
+    names: Sequence[str],
+    jobs: int = 1,
+    progress: Progress = silent,
+    without: Lesson | None = None,
+) -> Contest:
+    """The contest on files, where there are any, and on whatever is generated besides, as one. Raises FileError, ValueError as
+    `contest_on_files`."""
+    if paths:
+        contest = contest_on_files(paths, names, jobs, progress, without)
+        if extent.strokes or extent.pages:
+            made = contest_on_generated(extent.strokes, extent.pages, seed, names, jobs, progress)
+            more = ((made.strokes, made.stroke_results),) if extent.strokes else ()
+            contest = replace(contest, seed=seed, more=more, pages=made.pages, page_results=made.page_results)
+    else:
+        contest = contest_on_generated(extent.strokes, extent.pages, seed, names, jobs, progress)
+    if extent.pens:
+        readers = (*names, ORACLE)
+        penned = read_problems(list(every_problem()), extent.pens, seed, readers, jobs, progress)
+        contest = replace(contest, penned=penned)
+    if extent.stress or extent.stress_pages:
+        axes = tuple(AXES)
+        curves = stroke_curves(names, axes, extent.stress, seed, jobs, progress) if extent.stress else []
+        if extent.stress_pages:
+            curves += motion_curves(names, axes, extent.stress_pages, seed, jobs, progress)
+        told = groups(names, extent.stress, seed, jobs, progress) if extent.stress else []
+        contest = replace(contest, curves=tuple(curves), groups=tuple(told))
+    return contest

@@ -33,6 +33,8 @@ class GraphLayout:
     bottom: int = 34
     ticks: int = 4
     """About so many steps along an axis."""
+    names_left: bool = False
+    """The curves' names stand at the left, for curves that rise to the right."""
     points: int = 200
     """A curve of more points is thinned to so many: more than there are pixels is waste."""
 
@@ -67,6 +69,7 @@ def line_graph(
     )
     parts = [opening]
     floor = layout.top + high
+    names_at, anchor = (layout.left + 4, "start") if layout.names_left else (layout.left + wide - 4, "end")
     for tick in x_ticks:
         parts.append(_line(across(tick), layout.top, across(tick), floor))
         parts.append(_text(across(tick), floor + 12, f"{tick:g}", "middle"))
@@ -81,7 +84,7 @@ def line_graph(
             path = " ".join(f"{across(a):.1f},{down(b):.1f}" for a, b in run)
             parts.append(f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="1.8"/>')
         parts.append(
-            f'<text x="{layout.left + wide - 4}" y="{layout.top + 10 + 12 * k}" text-anchor="end" '
+            f'<text x="{names_at}" y="{layout.top + 10 + 12 * k}" text-anchor="{anchor}" '
             f'fill="{colour}" font-weight="600">{escape(name)}</text>'
         )
     return "".join(parts) + "</svg>"

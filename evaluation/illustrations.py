@@ -75,10 +75,11 @@ def illustrations(
         for answer in ANSWERS[problem]
         if answer in ANSWER_TITLES
     ]
-    return list(in_parallel(_illustrate, chosen, jobs, "Drawing pictures", progress))
+    return list(in_parallel(illustrate, chosen, jobs, "Drawing pictures", progress))
 
 
-def _illustrate(task: tuple[Page, tuple[str, ...]]) -> Illustration:
+def illustrate(task: tuple[Page, tuple[str, ...]]) -> Illustration:
+    """A page as each of the recognizers of these names reads it."""
     drawn, names = task
     truth = true_reading(drawn)
     readings = [read_page(drawn, name) for name in names]

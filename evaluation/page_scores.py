@@ -19,7 +19,8 @@ class PageSummary:
     strokes_balanced: accuracy over all strokes of all pages after disambiguation; centre, radius,
     vertex: mean errors of corrected shapes, fractions of the diagram's size, angle: degrees;
     unread: share of true components without a counterpart of their kind; motion, motion_median: mean
-    and median over pages of the motion error.
+    and median over pages of the motion error; same_verdict: share of pages with an answer on which it is judged alike;
+    divergence: mean motion error at each of `metrics.motion.TIMES`.
     """
 
     n: int
@@ -38,6 +39,8 @@ class PageSummary:
     motion: float | None
     motion_median: float | None
     same_outcome: float | None
+    same_verdict: float | None
+    divergence: tuple[float, ...]
 
 
 def summarize(pages: Sequence[PageScore]) -> PageSummary:
@@ -63,6 +66,8 @@ def summarize(pages: Sequence[PageScore]) -> PageSummary:
         motion=_mean(page.motion.error for page in pages),
         motion_median=float(np.median([page.motion.error for page in pages])) if pages else None,
         same_outcome=_mean(page.same_outcome for page in pages),
+        same_verdict=_mean(page.same_verdict for page in pages),
+        divergence=_means([page.divergence for page in pages if page.divergence]),
     )
 
 
@@ -75,3 +80,7 @@ def by_problem(pages: Sequence[PageScore]) -> dict[str, PageSummary]:
 def _mean(values: Iterable[float | None]) -> float | None:
     known = [float(value) for value in values if value is not None]
     return float(np.mean(known)) if known else None
+
+
+def _means(curves: Sequence[tuple[float, ...]]) -> tuple[float, ...]:
+    return tuple(np.mean(curves, axis=0).tolist()) if curves else ()

@@ -41,6 +41,7 @@ def page_tables(results: Sequence[PageResult]) -> list[Table]:
         names,
         {
             "same outcome": cells(lambda s: s.same_outcome),
+            "same verdict": cells(lambda s: s.same_verdict),
             "motion error": errors(lambda s: s.motion),
             "median": errors(lambda s: s.motion_median),
             "centre": errors(lambda s: s.centre),
@@ -59,7 +60,8 @@ def page_notes() -> list[str]:
         (
             "Exact: the right components from the right strokes, hanging on the right things, the right ones fixed. "
             "Motion error: distance between where bodies should be and where they are at 2 s, mean over bodies; a "
-            "body that was not found, or that should not be there, counts as the whole diagram's size (100 %)."
+            "body that was not found, or that should not be there, counts as the whole diagram's size (100 %). "
+            "Same verdict: of the pages with an answer by the student, those on which it is judged as on the page that was meant."
         ),
     ]
 

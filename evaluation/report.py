@@ -14,23 +14,36 @@ from markupsafe import Markup
 
 from evaluation.contest import Contest
 from evaluation.illustrations import ABOUT, ANSWER_TITLES, Illustration, illustrations
+from evaluation.leaderboard import Standings, standings
 from evaluation.page_tables import page_notes, page_tables
 from evaluation.parallel import Progress, silent
+from evaluation.report_parts import all_tables, curves_of, explorer, exported, leaderboard, stress_of
 from evaluation.stroke_contest import StrokeResult
+from evaluation.suites import StrokeSuite
+from evaluation.table import Table
 from evaluation.tables import recall_table, stroke_notes, stroke_table
+from evaluation.textbook_pens import pens_table
 from sketch.page import STROKE_KINDS
 
 LIBRARIES = ("inklined", "numpy", "scipy", "sympy", "scikit-learn", "onnxruntime")
 
 
-def report(contest: Contest, command: str, jobs: int = 1, progress: Progress = silent) -> str:
-    """HTML of a contest; `command` is what was run, as a person types it. On generated ink with
-    pages it draws every diagram in every recognizer's hands."""
+def report(
+    contest: Contest,
+    command: str,
+    jobs: int = 1,
+    progress: Progress = silent,
+    made: datetime | None = None,
+) -> str:
+    """HTML of a contest; `command` is what was run, as a person types it; made: when, now by default. On generated ink
+    with pages it draws every diagram in every recognizer's hands."""
     drawn = (
         illustrations(contest.seed, contest.names, jobs, progress)
         if contest.seed is not None and contest.pages and contest.pages.pages
         else []
     )
+    of = standings(contest, contest.seed or 0)
+    tables = report_tables(contest, of)
     environment = Environment(
         loader=PackageLoader("evaluation"), autoescape=True, undefined=StrictUndefined, trim_blocks=True
     )
@@ -41,8 +54,14 @@ def report(contest: Contest, command: str, jobs: int = 1, progress: Progress = s
         title=", ".join(contest.names),
         lead=_lead(contest),
         style=Markup(style),
-        facts=_facts(contest, command),
-        strokes=_strokes(contest) if contest.strokes.rows else None,
+        facts=_facts(contest, command, made or datetime.now().astimezone()),
+        leaderboard=leaderboard(of),
+        figures=curves_of(contest),
+        stress=stress_of(contest) if contest.curves or contest.groups else None,
+        penned=pens_table(contest.penned) if contest.penned else None,
+        explorer=_explorer(contest),
+        exported=exported(tables),
+        strokes=[_strokes(*each) for each in contest.stroke_suites() if each[0].rows],
         pages=_pages(contest) if contest.pages and contest.pages.pages else None,
         problems=_problems(drawn),
         footer="Made by inklined. Everything shown is in this file; it loads nothing.",
@@ -60,22 +79,41 @@ def _lead(contest: Contest) -> str:
     )
 
 
-def _facts(contest: Contest, command: str) -> list[tuple[str, str]]:
-    suites = [contest.strokes.name, *([contest.pages.name] if contest.pages else [])]
+def report_tables(contest: Contest, of: Standings) -> list[Table]:
+    """Every table that the report shows, in its order."""
+    scores = [
+        table
+        for suite, results in contest.stroke_suites()
+        if suite.rows
+        for table in (stroke_table(suite, results), recall_table(results))
+    ]
+    return all_tables(contest, of, [*scores, *page_tables(contest.page_results)])
+
+
+def _facts(contest: Contest, command: str, made: datetime) -> list[tuple[str, str]]:
+    suites = [suite.name for suite, _ in contest.stroke_suites()]
+    suites += [contest.pages.name] if contest.pages else []
+    hashes = ", ".join(f"{name}: {digest}" for name, digest in contest.hashes().items())
     seed = [] if contest.seed is None else [("Seed", str(contest.seed))]
     return [
         ("Compared on", "; ".join(suites)),
         *seed,
         ("Command", command),
-        ("Made", datetime.now().astimezone().strftime("%Y-%m-%d %H:%M")),
+        ("Made", made.strftime("%Y-%m-%d %H:%M")),
         ("Machine", f"{os.cpu_count()} cores, {platform.machine()}, Python {platform.python_version()}"),
         ("Versions", ", ".join(f"{name} {version(name)}" for name in LIBRARIES)),
+        ("Hashes of the data", hashes),
     ]
 
 
-def _strokes(contest: Contest) -> dict[str, Any]:
-    suite, results = contest.strokes, contest.stroke_results
+def _explorer(contest: Contest) -> dict[str, Any]:
+    found = explorer(contest)
+    return {**found, "pages": _problems(found["pages"])}
+
+
+def _strokes(suite: StrokeSuite, results: Sequence[StrokeResult]) -> dict[str, Any]:
     return {
+        "name": suite.name,
         "about": "Raw claims, stroke by stroke, before anybody asks whether a wire is attached to anything.",
         "scores": stroke_table(suite, results),
         "recalls": recall_table(results),

@@ -71,7 +71,7 @@ def rival(name: str) -> Recognizer:
     ValueError as `recognizer.roster.recognizer` for a name that nobody bears."""
     if name in PUBLISHED:
         return _kept(name)
-    if OWN in name:
+    if OWN in name and ":" not in name:
         return _own(name)
     if name not in ROSTER and ":" not in name:
         raise ValueError(

@@ -38,7 +38,7 @@ class StrokeResult:
     claim is then `claim_of_row`); five: over single strokes that truly are of `DIAGRAM_KINDS`;
     claimable: over rows whose kind this recognizer can claim; unclaimable: the others by label,
     those that are no stroke kind included; rejected: rows it would rather not have named;
-    right: for each scored row whether its claim is its label.
+    right: for each scored row whether its claim is its label; claimed, sure: what it was taken for, and how surely.
     """
 
     name: str
@@ -51,6 +51,8 @@ class StrokeResult:
     rejected: int
     latency: Latency
     right: tuple[bool, ...]
+    claimed: tuple[StrokeKind, ...] = ()
+    sure: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +133,8 @@ def _result(suite: StrokeSuite, recognizer: Recognizer, claims: Sequence[Claim])
         rejected=sum(claim.rejected for claim in claims),
         latency=latency(recognizer, suite.inks),
         right=tuple(claim.kind == label for claim, label in zip(claims, labels, strict=True)),
+        claimed=tuple(claim.kind for claim in claims),
+        sure=tuple(claim.confidence for claim in claims),
     )
 
 

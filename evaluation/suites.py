@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from hashlib import sha256
 from pathlib import Path
 from typing import cast
 
@@ -17,9 +18,9 @@ import numpy as np
 from data_gen import pages as page_generator
 from data_gen import strokes as stroke_generator
 from data_gen.pages import Page
-from evaluation.lessons import Lesson
+from evaluation.lessons import Lesson, ink_digest, writer_of
 from recognizer.claims import Claim
-from sketch.files import jsonl
+from sketch.files import formats
 from sketch.files.errors import FileError
 from sketch.ink import Ink
 from sketch.page import STROKE_KINDS, StrokeKind
@@ -29,7 +30,8 @@ from sketch.page import STROKE_KINDS, StrokeKind
 class StrokeSuite:
     """rows: how many the source held; inks and labels: those that are scored, in step;
     unknown: labels that are no stroke kind, with how many rows bear them (not scored);
-    unlabelled: rows without a label (not scored); notices: what the reader of files skipped."""
+    unlabelled: rows without a label (not scored); notices: what the reader of files skipped; writers: who drew each ink,
+    each its own where nobody is named."""
 
     name: str
     rows: int
@@ -38,6 +40,18 @@ class StrokeSuite:
     unknown: Mapping[str, int] = field(default_factory=dict[str, int])
     unlabelled: int = 0
     notices: tuple[str, ...] = ()
+    writers: tuple[str, ...] = ()
+
+    @property
+    def clusters(self) -> tuple[str, ...]:
+        """Whose rows are alike: the writers, or every row for itself."""
+        return self.writers or tuple(str(k) for k in range(len(self.labels)))
+
+    @property
+    def hash(self) -> str:
+        """Of what is scored, sixteen hexadecimal digits."""
+        told = (f"{label} {ink_digest(ink)}" for label, ink in zip(self.labels, self.inks, strict=True))
+        return sha256("\n".join(told).encode()).hexdigest()[:16]
 
     @property
     def single(self) -> tuple[bool, ...]:
@@ -51,6 +65,15 @@ class PageSuite:
 
     name: str
     pages: tuple[Page, ...]
+
+    @property
+    def hash(self) -> str:
+        """Of the pages' ink and formulas, sixteen hexadecimal digits."""
+        told = (
+            f"{page.name} {page.answer} {ink_digest(page.truth.ink)} {[line.text for line in page.truth.expressions]}"
+            for page in self.pages
+        )
+        return sha256("\n".join(told).encode()).hexdigest()[:16]
 
 
 def generated_strokes(count: int, seed: int) -> StrokeSuite:
@@ -70,9 +93,9 @@ def generated_pages(count: int, seed: int) -> PageSuite:
 
 
 def strokes_from_files(paths: Sequence[Path], without: Lesson | None = None) -> StrokeSuite:
-    """All rows of some JSON Lines files as one suite, but for those by the writers of a lesson. Raises FileError when
+    """All rows of some files of labelled ink as one suite, but for those by the writers of a lesson. Raises FileError when
     one is unreadable, or when no row of any bears a label, or none is left."""
-    loaded = [jsonl.read(path) for path in paths]
+    loaded = [formats.read(path) for path in paths]
     every = [row for file in loaded for row in file.rows]
     rows = [row for row in every if without is None or not without.taught_by(row)]
     if not rows:
@@ -89,6 +112,7 @@ def strokes_from_files(paths: Sequence[Path], without: Lesson | None = None) -> 
         rows=len(rows),
         inks=tuple(row.ink for row in known),
         labels=tuple(cast(StrokeKind, row.label) for row in known),
+        writers=tuple(writer_of(row) for row in known),
         unknown=_count(str(row.label) for row in rows if row.label not in (None, *STROKE_KINDS)),
         unlabelled=sum(row.label is None for row in rows),
         notices=_left_out(len(every) - len(rows))

@@ -7,19 +7,36 @@ from dataclasses import asdict
 from typing import Any
 
 from evaluation.contest import Contest
+from evaluation.leaderboard import plain, standings
+from evaluation.metrics.calibration import reliability, risk_coverage
 from evaluation.metrics.strokes import StrokeScores
 from evaluation.page_scores import by_problem, summarize
+from evaluation.stress_contest import plain as stress_plain
 from evaluation.stroke_contest import DIAGRAM_KINDS, Pairing, StrokeResult, pairings
 from evaluation.suites import StrokeSuite
+from evaluation.textbook_pens import pens_summary
 from sketch.page import STROKE_KINDS
 
 Json = dict[str, Any]
+COVERAGES = (1.0, 0.95, 0.9, 0.8, 0.5)
+"""Shares of claims that are kept, at which risks are told."""
 
 
 def contest_summary(contest: Contest) -> Json:
     """`stroke_summary`, and "pages" where pages were compared: for each recognizer the `PageSummary` over
-    all pages and by problem. "seed" is null for files."""
-    summary = {**stroke_summary(contest.strokes, contest.stroke_results), "seed": contest.seed}
+    all pages and by problem. "seed" is null for files. "statistics": every measure with its interval, and all pairs; "more": further
+    suites of strokes; "textbook", "stress": where these took part."""
+    summary = {
+        **stroke_summary(contest.strokes, contest.stroke_results),
+        "seed": contest.seed,
+        "statistics": plain(standings(contest, contest.seed or 0)),
+    }
+    if contest.more:
+        summary["more"] = [stroke_summary(*each) for each in contest.more]
+    if contest.penned:
+        summary["textbook"] = pens_summary(contest.penned)
+    if contest.curves or contest.groups:
+        summary["stress"] = stress_plain(contest.curves, contest.groups)
     if contest.pages is None:
         return summary
     pages = {
@@ -64,7 +81,19 @@ def _recognizer(result: StrokeResult) -> Json:
         "several_strokes": _scores(result.several),
         "claimable_only": _scores(result.claimable),
         "confusion": _confusion(result.scores),
+        "reliability": [asdict(each) for each in reliability(result.sure, result.right)]
+        if result.sure
+        else [],
+        "risk": _risk(result),
     }
+
+
+def _risk(result: StrokeResult) -> Json:
+    """The risk at some coverages, and the area under all of the curve."""
+    if not result.sure:
+        return {}
+    risk = risk_coverage(result.sure, result.right)
+    return {"area": risk.area, "at": {f"{kept:g}": risk.at(kept) for kept in COVERAGES}}
 
 
 def _scores(scores: StrokeScores) -> Json:

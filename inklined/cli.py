@@ -13,13 +13,33 @@ from collections.abc import Sequence
 
 import typer
 
-from inklined.commands import compare, compile, generate, observe, problems, reading, recognizers, train
+from inklined.commands import (
+    check_recognizer,
+    compare,
+    compile,
+    data,
+    evaluate,
+    generate,
+    observe,
+    problems,
+    reading,
+    recognizers,
+    reproduce,
+    studies,
+    train,
+)
+from inklined.typed import TYPED
 
 HELP = """Ink that knows physics: reads pages of pen strokes, sets them in motion, and compares
 recognizers by what comes out. Without a command: inklined compare."""
 
 REPEATED: dict[str, tuple[str, ...]] = {
     "compare": ("--ink", "--recognizer", "--train"),
+    "evaluate": ("--recognizer",),
+    "export": ("--label",),
+    "early": ("--recognizer",),
+    "protocol": ("--recognizer", "--templates"),
+    "stress": ("--recognizer", "--axis"),
     "problems": ("--family", "--recognizer"),
     "observe": ("--quantity",),
 }
@@ -37,6 +57,11 @@ app = typer.Typer(
 )
 compare.register(app)
 recognizers.register(app)
+data.register(app)
+studies.register(app)
+reproduce.register(app)
+evaluate.register(app)
+check_recognizer.register(app)
 reading.register(app)
 observe.register(app)
 generate.register(app)
@@ -52,6 +77,7 @@ def main() -> None:
 
 def run(arguments: Sequence[str]) -> int:
     """Runs one command line and returns its exit code. With INKLINED_DEBUG set, errors are raised."""
+    typed = TYPED.set(tuple(arguments) or ("compare",))
     try:
         code = app(spread(arguments) or ["compare"], prog_name="inklined", standalone_mode=False)
     except BaseException as error:
@@ -63,6 +89,8 @@ def run(arguments: Sequence[str]) -> int:
     else:
         if code == INTERRUPTED:  # typer has caught the signal and says it by this code
             _complain("interrupted")
+    finally:
+        TYPED.reset(typed)
     return code if isinstance(code, int) else 0
 
 
@@ -91,6 +119,7 @@ def _verdict(error: BaseException) -> tuple[str, int]:
     from inklined.output import OutputError
     from physics.observables import ObservableError
     from physics.scene import SceneError
+    from recognizer.outside.process import RecognizerError
     from sketch.files.errors import FileError
     from sketch.formula.parse import FormulaError
     from sketch.ink import InkError
@@ -111,6 +140,7 @@ def _verdict(error: BaseException) -> tuple[str, int]:
             | SceneError()
             | ObservableError()
             | OutputError()
+            | RecognizerError()
         ):
             return _one_line(str(error)), 1
         case BrokenPipeError():

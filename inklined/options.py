@@ -48,3 +48,12 @@ def there(paths: Iterable[Path]) -> list[Path]:
         if path.is_dir():
             raise IsADirectoryError(21, "a folder, where a file of ink is needed", str(path))
     return checked
+
+
+def there_or_folder(paths: Iterable[Path]) -> list[Path]:
+    """The paths, files or folders. Raises FileNotFoundError for one that is not there."""
+    checked = list(paths)
+    for path in checked:
+        if not path.exists():
+            raise FileNotFoundError(2, "there is no such file or folder", str(path))
+    return checked

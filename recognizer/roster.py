@@ -7,6 +7,7 @@ import importlib
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from recognizer.claims import Recognizer
@@ -67,12 +68,21 @@ assert OURS.keys() == ROSTER.keys()
 def recognizer(name: str) -> Recognizer:
     """The rival of that name, ready to recognize.
 
-    name: one of `ROSTER`, or anybody's own as "module:Class" (or "module:function"), importable from
-    where Python runs and called without arguments. Raises ValueError that says what is wrong with the
+    name: one of `ROSTER`, or anybody's own (outside/README.md): "run:COMMAND", a program; "onnx:FILE"; or "module:Class" (or
+    "module:function"), importable from where Python runs and called without arguments. Raises ValueError that says what is wrong with the
     name or what the object lacks of the `Recognizer` protocol.
     """
     if name in ROSTER:
         return ROSTER[name]()
+    way, _, what = name.partition(":")
+    if way == "run":
+        from recognizer.outside.process import program
+
+        return program(what)
+    if way == "onnx":
+        from recognizer.outside.onnx_file import OnnxFile
+
+        return OnnxFile(Path(what))
     if ":" in name:
         return _foreign(name)
     raise ValueError(

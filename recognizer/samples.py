@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,11 +50,13 @@ Trainer = Callable[[Sequence[Sample], np.random.Generator], Scorer]
 
 
 def labelled(samples: Sequence[Sample]) -> tuple[tuple[StrokeKind, ...], IntArray]:
-    """The kinds that occur, in the order of `STROKE_KINDS`, and which of them each sample is, (n,).
+    """The kinds that occur, in the order of `STROKE_KINDS`, and which of them each sample is, (n,). Labels of somebody's own, as
+    protocols over any set of gestures have them, come after the kinds in alphabetical order.
 
     Raises ValueError when there is no sample."""
     if not samples:
         raise ValueError("nothing to learn from: there is no sample of any kind")
     present = {sample.kind for sample in samples}
-    kinds: tuple[StrokeKind, ...] = tuple(kind for kind in STROKE_KINDS if kind in present)
+    own = cast(set[StrokeKind], present.difference(STROKE_KINDS))
+    kinds: tuple[StrokeKind, ...] = (*(kind for kind in STROKE_KINDS if kind in present), *sorted(own))
     return kinds, np.array([kinds.index(sample.kind) for sample in samples], dtype=np.int64)

@@ -6,7 +6,7 @@ so that 0.01 is hardly seen and 1 is the whole drawing away.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -22,6 +22,8 @@ from sketch.ink import FloatArray
 from sketch.page import Sketch
 from sketch.shapes import Circle, Polygon
 
+TIMES: tuple[float, ...] = tuple(k / 8 for k in range(17))
+"""Seconds after the start at which the divergence of motions is told, up to `AT`."""
 AT = 2.0
 """Seconds after the start at which positions are compared."""
 WORST = 1.0
@@ -43,6 +45,15 @@ class MotionError:
 def motion_error(truth: Motion, claim: Motion, at: float = AT) -> MotionError:
     """Compares the trajectories of all solids that are movable in the truth or in the claim, paired
     by the strokes that they share. A fixed solid stays where it is drawn."""
+    return _error(truth, claim, (at,))[0]
+
+
+def divergence(truth: Motion, claim: Motion, times: Sequence[float] = TIMES) -> tuple[float, ...]:
+    """The motion error at each of these times."""
+    return tuple(error.error for error in _error(truth, claim, times))
+
+
+def _error(truth: Motion, claim: Motion, times: Sequence[float]) -> list[MotionError]:
     movable, claimed_movable = _movable(truth.rectified), _movable(claim.rectified)
     pairs = {
         a: b
@@ -52,13 +63,17 @@ def motion_error(truth: Motion, claim: Motion, at: float = AT) -> MotionError:
         and _is_solid(claim.rectified, b)
     }
     size = diagram_size(truth.rectified) / PER_METRE
-    errors = [
-        min(WORST, float(np.linalg.norm(_place(claim, b, at) - _place(truth, a, at))) / size)
-        for a, b in pairs.items()
-    ]
     missed = len(movable - pairs.keys()) + len(claimed_movable - set(pairs.values()))
-    bodies = len(errors) + missed
-    return MotionError((sum(errors) + WORST * missed) / bodies if bodies else 0.0, bodies, missed)
+    bodies = len(pairs) + missed
+
+    def at(time: float) -> MotionError:
+        apart = (
+            float(np.linalg.norm(_place(claim, b, time) - _place(truth, a, time))) for a, b in pairs.items()
+        )
+        total = sum(min(WORST, distance / size) for distance in apart) + WORST * missed
+        return MotionError(total / bodies if bodies else 0.0, bodies, missed)
+
+    return [at(time) for time in times]
 
 
 def same_outcome(pairs: Mapping[str, str], truth: Outcome, claim: Outcome) -> bool:

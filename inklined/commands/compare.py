@@ -5,14 +5,16 @@ from __future__ import annotations
 import json
 import os
 import shlex
-import sys
 from collections.abc import Sequence
+from datetime import datetime
 from pathlib import Path
+from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from inklined.options import rivals, there
+from inklined.typed import TYPED
 
 if TYPE_CHECKING:
     from evaluation.contest import Contest
@@ -22,6 +24,8 @@ if TYPE_CHECKING:
 SEED = 2026
 """Of the generated suites, unless another is asked for; training draws from other seeds."""
 REPORT = Path("report.html")
+STROKES, PAGES = 1800, 30
+"""Generated when no file is given."""
 
 
 def register(app: typer.Typer) -> None:
@@ -34,7 +38,9 @@ def register(app: typer.Typer) -> None:
 def compare(
     ink: Annotated[
         list[Path] | None,
-        typer.Option(help="Labelled JSON Lines (.jsonl, .jsonl.gz) to compare on, one or more files."),
+        typer.Option(
+            help="Labelled ink to compare on, in any format that `inklined import` knows, one or more files."
+        ),
     ] = None,
     recognizer: Annotated[
         list[str] | None,
@@ -56,8 +62,25 @@ def compare(
         typer.Option(help="The report, one HTML file. [default: report.html; with --ink, none]"),
     ] = None,
     json_file: Annotated[Path | None, typer.Option("--json", help="Write all figures here as JSON.")] = None,
-    strokes: Annotated[int, typer.Option(min=0, max=1_000_000, help="Generated strokes.")] = 1800,
-    pages: Annotated[int, typer.Option(min=0, max=10_000, help="Generated pages.")] = 30,
+    strokes: Annotated[
+        int | None,
+        typer.Option(min=0, max=1_000_000, help="Generated strokes. [default: 1800; with --ink, none]"),
+    ] = None,
+    pages: Annotated[
+        int | None, typer.Option(min=0, max=10_000, help="Generated pages. [default: 30; with --ink, none]")
+    ] = None,
+    pens: Annotated[
+        int, typer.Option(min=0, max=1000, help="Textbook problems too, each by so many simulated pens.")
+    ] = 0,
+    stress: Annotated[
+        int, typer.Option(min=0, max=100_000, help="Stress too, by so many generated strokes at each level.")
+    ] = 0,
+    stress_pages: Annotated[
+        int, typer.Option(min=0, max=1000, help="And the motion of so many generated pages at each level.")
+    ] = 0,
+    tables: Annotated[
+        Path | None, typer.Option(help="Write every table into this folder, as CSV and LaTeX.")
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the generated ink.")] = SEED,
     jobs: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
 ) -> None:
@@ -73,6 +96,8 @@ def compare(
     from recognizer.roster import ROSTER
 
     names = rivals(recognizer or ()) or tuple(ROSTER)
+    strokes = strokes if strokes is not None else 0 if ink else STROKES
+    pages = pages if pages is not None else 0 if ink else PAGES
     if not ink and not strokes and not pages:
         raise typer.BadParameter("--strokes 0 --pages 0 leaves nothing to compare; give one of them a number")
     files = there(ink or ())
@@ -87,24 +112,30 @@ def compare(
             check_writable(target, [*files, *lessons])
 
     with progress() as tell:
-        from evaluation.contest import contest_on_files, contest_on_generated
+        from evaluation.contest import Extent, whole_contest
         from evaluation.report import report as report_of
 
+        made, begun = datetime.now().astimezone(), perf_counter()
         workers = jobs or os.cpu_count() or 1
         learnt, names = _taught(lessons, templates, seed, names, tell) if lessons else (None, names)
-        contest = (
-            contest_on_files(files, names, workers, tell, learnt)
-            if files
-            else contest_on_generated(strokes, pages, seed, names, workers, tell)
-        )
-        html = report_of(contest, _as_typed(), workers, tell) if place else ""
+        extent = Extent(strokes, pages, pens, stress, stress_pages)
+        contest = whole_contest(files, extent, seed, names, workers, tell, learnt)
+        html = report_of(contest, _as_typed(), workers, tell, made) if place else ""
 
     # Files first: a reader of the terminal that hangs up must not cost the figures.
     if json_file:
+        from evaluation.provenance import provenance
         from evaluation.summary import contest_summary
 
-        figures = json.dumps(contest_summary(contest), indent=1, ensure_ascii=False)
-        write_text(json_file, figures + "\n", files)
+        origin = provenance(contest, TYPED.get(), made, perf_counter() - begun)
+        figures = {**contest_summary(contest), "provenance": origin}
+        write_text(json_file, json.dumps(figures, indent=1, ensure_ascii=False) + "\n", files)
+    if tables:
+        from evaluation.exports import save_tables
+        from evaluation.leaderboard import standings
+        from evaluation.report import report_tables
+
+        save_tables(tables, report_tables(contest, standings(contest, contest.seed or 0)))
     if place:
         write_text(place, html, files)
     _print(contest)
@@ -145,12 +176,13 @@ def _print(contest: Contest) -> None:
     from evaluation.tables import recall_table, stroke_notes, stroke_table
     from inklined.terminal import as_rich, out
 
-    if contest.strokes.rows:
-        out.print(as_rich(stroke_table(contest.strokes, contest.stroke_results)))
-        if contest.strokes.labels:
-            out.print(as_rich(recall_table(contest.stroke_results)))
-        for note in stroke_notes(contest.strokes, contest.stroke_results):
-            out.print(note, style="dim", markup=False)
+    for suite, results in contest.stroke_suites():
+        if suite.rows:
+            out.print(as_rich(stroke_table(suite, results)))
+            if suite.labels:
+                out.print(as_rich(recall_table(results)))
+            for note in stroke_notes(suite, results):
+                out.print(note, style="dim", markup=False)
     paged = page_tables(contest.page_results)
     for table in paged:
         out.print(as_rich(table))
@@ -160,4 +192,4 @@ def _print(contest: Contest) -> None:
 
 def _as_typed() -> str:
     """This command line, for the report."""
-    return "inklined " + shlex.join(sys.argv[1:] or ["compare"])
+    return "inklined " + shlex.join(TYPED.get())

@@ -32,9 +32,13 @@ def strokes(
     count: Annotated[int, typer.Option(min=1, max=10_000_000, help="How many strokes.")] = 1000,
     seed: Seed = 0,
     kind: Annotated[list[str] | None, typer.Option(help="Only this kind; may be repeated.")] = None,
+    profile: Annotated[
+        str | None, typer.Option(help="Only this group of writers: adult, child, tremor or low_vision.")
+    ] = None,
 ) -> None:
     """Write labelled single strokes of all kinds as JSON Lines."""
-    from data_gen.strokes import EQUAL, stream
+    from data_gen.strokes import EQUAL, Recipe, stream
+    from data_gen.writers import PROFILES
     from inklined.output import check_writable
     from inklined.terminal import out, progress
     from sketch.files import jsonl
@@ -43,10 +47,11 @@ def strokes(
 
     kinds: tuple[StrokeKind, ...] = known("--kind", kind or (), STROKE_KINDS)
     mix: Mapping[StrokeKind, float] = {name: 1 / len(kinds) for name in kinds} if kinds else EQUAL
+    known("--profile", [profile] if profile else [], PROFILES)
     check_writable(file)
     rows: list[jsonl.Row] = []
     with progress() as tell:
-        for stroke in stream(count, seed, mix=mix):
+        for stroke in stream(count, seed, mix=mix, recipe=Recipe(profile=profile)):
             rows.append(
                 jsonl.Row(stroke.kind, Ink((stroke.stroke,)), None, {"index": stroke.index, "seed": seed})
             )

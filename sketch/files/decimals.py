@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from decimal import Decimal
 
+_WHOLE = 1e15
 _PLAIN_DIGITS = 20
 """Decimals whose first digit lies further from the point are written with an exponent."""
 
@@ -24,6 +25,15 @@ def shifted(value: float, places: int) -> str:
 def unshifted(number: Decimal | int, places: int) -> float:
     """The float64 nearest to number / 10^places; ±inf when there is none."""
     return float(_moved(Decimal(number), -places))
+
+
+def plainly(value: float) -> str:
+    """A finite float64 as files by others have it: whole numbers without a point; zero keeps its sign."""
+    return (
+        str(int(value))
+        if (value.is_integer() and 0 < abs(value) < _WHOLE) or str(value) == "0.0"
+        else repr(value)
+    )
 
 
 def _moved(number: Decimal, places: int) -> Decimal:

@@ -10,7 +10,7 @@ Written is every number in full, times in seconds: reading gives the same ink to
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import Decimal
 from itertools import pairwise
 from pathlib import Path
@@ -30,10 +30,11 @@ _TIME_PLACES = {"s": 0, "ms": 3, "us": 6, "ns": 9}
 
 @dataclass(frozen=True, slots=True)
 class LoadedInk:
-    """The ink of a file, and a notice for whatever was not taken as it stood."""
+    """The ink of a file, a notice for whatever was not taken as it stood, and the trace that each stroke is of."""
 
     ink: Ink
     notices: tuple[Notice, ...] = ()
+    traces: tuple[Element, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,15 +69,23 @@ def write(path: str | Path, ink: Ink) -> None:
 
 def dumps(ink: Ink) -> str:
     """The ink as InkML: a context for each set of channels in use, a trace for each stroke."""
+    return framed(definitions(ink) + "".join(trace(stroke) for stroke in ink))
+
+
+def framed(body: str) -> str:
+    """A whole InkML text around its elements."""
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n<ink xmlns="{NAMESPACE}">\n{body}</ink>\n'
+
+
+def definitions(ink: Ink) -> str:
+    """The contexts that the ink's traces name."""
     kinds = sorted({_channels_of(stroke) for stroke in ink})
-    contexts = "".join(_context(channels) for channels in kinds)
-    strokes = "".join(
-        f'<trace contextRef="#{_channels_of(stroke)}">{_trace_text(stroke)}</trace>\n' for stroke in ink
-    )
-    return (
-        f'<?xml version="1.0" encoding="UTF-8"?>\n<ink xmlns="{NAMESPACE}">\n'
-        f"<definitions>\n{contexts}</definitions>\n{strokes}</ink>\n"
-    )
+    return f"<definitions>\n{''.join(_context(channels) for channels in kinds)}</definitions>\n"
+
+
+def trace(stroke: Stroke, attributes: str = "") -> str:
+    """A stroke as an element; attributes: more of them, as they are written."""
+    return f'<trace contextRef="#{_channels_of(stroke)}"{attributes}>{_trace_text(stroke)}</trace>\n'
 
 
 def _channels_of(stroke: Stroke) -> str:
@@ -106,7 +115,11 @@ def _number(value: float) -> str:
 
 
 def _load(data: bytes, source: str | Path) -> LoadedInk:
-    root = xml_tree.parse(data, source)
+    return ink_of(xml_tree.parse(data, source), source)
+
+
+def ink_of(root: Element, source: str | Path) -> LoadedInk:
+    """The ink of a file that is parsed already. Raises FileError."""
     if root.name != "ink":
         raise FileError(
             source, f"its outermost element is <{root.name}>; InkML has <ink>", f"line {root.line}"
@@ -114,7 +127,7 @@ def _load(data: bytes, source: str | Path) -> LoadedInk:
     page = _Page(source, root)
     page.walk(root, _Format())
     try:
-        return LoadedInk(Ink(tuple(page.strokes)), tuple(page.notices))
+        return LoadedInk(Ink(tuple(page.strokes)), tuple(page.notices), tuple(page.taken))
     except InkError as error:
         raise FileError(source, str(error)) from None
 
@@ -125,6 +138,7 @@ class _Page:
     def __init__(self, source: str | Path, root: Element) -> None:
         self.strokes: list[Stroke] = []
         self.notices: list[Notice] = []
+        self.taken: list[Element] = []
         self._source = source
         self._by_id = {e.attributes["id"]: e for e in root.everything() if "id" in e.attributes}
 
@@ -194,6 +208,7 @@ class _Page:
                 form = stated
             if rows:
                 self.strokes.append(self._stroke(element, form, rows))
+                self.taken.append(element)
             else:
                 self._notice(element, "an empty trace is left out", lost=True)
         except (traces.TraceError, InkError) as error:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 from pathlib import Path
@@ -22,12 +22,17 @@ import numpy as np
 from sketch.files.decimals import shifted, unshifted
 from sketch.files.errors import FileError, Notice
 from sketch.files.store import read_text, write_text
-from sketch.ink import FloatArray, Ink, InkError, Stroke
+from sketch.ink import LIMITS, FloatArray, Ink, InkError, Stroke
 
 _MILLI = 3
 """Places that the point moves from seconds to milliseconds."""
 _WHOLE = 2.0**53
 """Whole numbers below it are exact in float64, so that dividing one rounds once, as it should."""
+_LONG_LINE = 1 << 20
+"""Characters of a line from which on it is looked at before it is parsed."""
+_STROKE_END = re.compile(r"\]\s*\]")
+_LEVELS = 3
+"""Brackets that open before a page's first point."""
 _OWN_KEYS = ("label", "writer", "strokes", "pressure")
 
 
@@ -54,7 +59,7 @@ class Loaded:
         return sum(notice.lost for notice in self.notices)
 
 
-class _Broken(ValueError):
+class RowError(ValueError):
     """Why a row cannot be read."""
 
 
@@ -64,14 +69,20 @@ def read(path: str | Path) -> Loaded:
     Times that run backwards, or are known for some points only, are left out with a notice.
     Raises FileError when the file cannot be opened or no row of it can be read.
     """
+    return rows_of(read_text(path), path, _row)
+
+
+def rows_of(text: str, path: str | Path, read_row: Callable[[str], tuple[Row, list[str]]]) -> Loaded:
+    """The rows of a file's lines, by a reader that gives a line's row and remarks on what was left out of it, or raises
+    RowError or InkError. Raises FileError when no row can be read."""
     rows: list[Row] = []
     notices: list[Notice] = []
-    for number, line in enumerate(read_text(path).split("\n"), start=1):
+    for number, line in enumerate(text.split("\n"), start=1):
         if not line.strip():
             continue
         try:
-            row, remarks = _row(line)
-        except (_Broken, InkError) as error:
+            row, remarks = read_row(line)
+        except (RowError, InkError) as error:
             notices.append(Notice(number, f"the row is left out: {error}", lost=True))
             continue
         rows.append(row)
@@ -118,33 +129,62 @@ def _triples(stroke: Stroke) -> str:
 
 
 def _row(line: str) -> tuple[Row, list[str]]:
-    """The row and remarks on what was left out of it. Raises _Broken or InkError."""
+    """The row and remarks on what was left out of it. Raises RowError or InkError."""
+    fields = decoded(line)
+    if not isinstance(fields.get("strokes"), list):
+        raise RowError('it has no list of strokes; needed is "strokes": [[[x, y, t], …], …]')
+    written = cast(list[object], fields["strokes"])
+    ink, remarks = ink_of(written, _pressures(fields.get("pressure"), len(written)))
+    extra = plain({key: value for key, value in fields.items() if key not in _OWN_KEYS})
+    return Row(text_of(fields, "label"), ink, text_of(fields, "writer"), extra), remarks
+
+
+def decoded(line: str) -> dict[str, Any]:
+    """The JSON object on a line, numbers with more digits than a float64 is sure to keep as decimals. Raises RowError,
+    InkError for more than any page may hold."""
+    check_bounds(line)
     decoder = _DECIMALS if _LONG_NUMBER.search(line) else _FLOATS
     try:
-        decoded: object = decoder.decode(line.strip())
+        value: object = decoder.decode(line.strip())
     except json.JSONDecodeError as error:
-        raise _Broken(f"it is not JSON ({error.msg} at column {error.colno})") from None
+        raise RowError(f"it is not JSON ({error.msg} at column {error.colno})") from None
     except (ValueError, ArithmeticError, RecursionError) as error:
-        raise _Broken(f"it is not JSON that can be read ({error})") from None
-    if not isinstance(decoded, dict):
-        raise _Broken("it is not a JSON object in braces")
-    fields = cast(dict[str, Any], decoded)
-    if not isinstance(fields.get("strokes"), list):
-        raise _Broken('it has no list of strokes; needed is "strokes": [[[x, y, t], …], …]')
-    written = cast(list[object], fields["strokes"])
-    pressures = _pressures(fields.get("pressure"), len(written))
+        raise RowError(f"it is not JSON that can be read ({error})") from None
+    if not isinstance(value, dict):
+        raise RowError("it is not a JSON object in braces")
+    return cast(dict[str, Any], value)
+
+
+def ink_of(written: Sequence[object], pressures: Sequence[object] = ()) -> tuple[Ink, list[str]]:
+    """The ink of strokes as lists of [x, y, t_ms or null], and remarks on what was left out. Raises RowError, InkError."""
     remarks: list[str] = []
-    strokes = [_stroke(points, pressures[index], index, remarks) for index, points in enumerate(written)]
-    extra = {key: _floats(value) for key, value in fields.items() if key not in _OWN_KEYS}
-    return Row(_text(fields, "label"), Ink(tuple(strokes)), _text(fields, "writer"), extra), remarks
+    pressed = pressures or [None] * len(written)
+    strokes = [_stroke(points, pressed[index], index, remarks) for index, points in enumerate(written)]
+    return Ink(tuple(strokes)), remarks
+
+
+def check_bounds(line: str) -> None:
+    """Refuses a line whose longest stroke alone is more than any page may hold, before a list is made of it: each
+    point costs some hundred times its characters as Python's lists. Raises InkError."""
+    if len(line) < _LONG_LINE:
+        return
+    begun = longest = 0
+    for end in _STROKE_END.finditer(line):
+        longest = max(longest, line.count("[", begun, end.start()))
+        begun = end.end()
+    longest = max(longest, line.count("[", begun))
+    if line.count("]") < LIMITS.points:  # few lists: one of them may be endless
+        longest = max(longest, *(run.count(",") for run in line.split("]")))
+    if longest > LIMITS.points + _LEVELS:
+        raise InkError(f"a stroke of some {longest} points; at most {LIMITS.points} are accepted")
 
 
 def _stroke(written: object, pressure: object, index: int, remarks: list[str]) -> Stroke:
     if not isinstance(written, list) or not written:
-        raise _Broken(f"stroke {index} has no points")
+        raise RowError(f"stroke {index} has no points")
     points = cast(list[Any], written)
     if set(map(type, points)) != {list} or not set(map(len, points)) <= {2, 3}:
-        raise _Broken(f"stroke {index} has a point that is not [x, y, t] (t may be null)")
+        raise RowError(f"stroke {index} has a point that is not [x, y, t] (t may be null)")
     _check_numbers([point[0] for point in points], f"x of stroke {index}")
     _check_numbers([point[1] for point in points], f"y of stroke {index}")
     known = [point[2] for point in points if len(point) == 3 and point[2] is not None]
@@ -162,7 +202,7 @@ def _stroke(written: object, pressure: object, index: int, remarks: list[str]) -
     try:
         return Stroke([point[:2] for point in points], times, cast(Any, pressure))
     except InkError as error:
-        raise _Broken(f"stroke {index}: {error}") from None
+        raise RowError(f"stroke {index}: {error}") from None
 
 
 def _seconds(milliseconds: list[int | float | Decimal]) -> FloatArray:
@@ -170,7 +210,7 @@ def _seconds(milliseconds: list[int | float | Decimal]) -> FloatArray:
     try:
         values = np.array(milliseconds, dtype=np.float64)
     except OverflowError:
-        raise _Broken("a time is beyond what float64 holds") from None
+        raise RowError("a time is beyond what float64 holds") from None
     short = set(map(type, milliseconds)) <= {int, float}
     if short and ((np.floor(values) == values) & (np.abs(values) < _WHOLE)).all():
         return values / 1000.0
@@ -181,11 +221,11 @@ def _pressures(written: object, count: int) -> list[object]:
     if written is None:
         return [None] * count
     if not isinstance(written, list) or len(cast(list[Any], written)) != count:
-        raise _Broken(f"its pressure must be a list with one entry for each of {count} strokes")
+        raise RowError(f"its pressure must be a list with one entry for each of {count} strokes")
     channels = cast(list[Any], written)
     for index, channel in enumerate(channels):
         if channel is not None and not isinstance(channel, list):
-            raise _Broken(f"pressure of stroke {index} must be a list of numbers or null")
+            raise RowError(f"pressure of stroke {index} must be a list of numbers or null")
         _check_numbers(channel or [], f"pressure of stroke {index}")
     return channels
 
@@ -194,18 +234,22 @@ def _check_numbers(values: list[Any], name: str) -> None:
     if set(map(type, values)) <= {int, float, Decimal}:
         return
     wrong = next(value for value in values if type(value) not in (int, float, Decimal))
-    raise _Broken(f"{name} is {json.dumps(_floats(wrong))[:40]}; it must be a number")
+    raise RowError(f"{name} is {json.dumps(_floats(wrong))[:40]}; it must be a number")
 
 
-def _text(fields: Mapping[str, Any], name: str) -> str | None:
+def plain(fields: Mapping[str, Any]) -> dict[str, Any]:
+    """JSON as Python usually has it: decimals become floats."""
+    return {key: _floats(value) for key, value in fields.items()}
+
+
+def text_of(fields: Mapping[str, Any], name: str) -> str | None:
     value = fields.get(name)
     if value is not None and not isinstance(value, str):
-        raise _Broken(f"{name} must be text or null")
+        raise RowError(f"{name} must be text or null")
     return value
 
 
 def _floats(value: Any) -> Any:
-    """JSON as Python usually has it: decimals become floats."""
     match value:
         case Decimal():
             return float(value)

@@ -6,8 +6,11 @@ import gzip
 import os
 import tempfile
 import zlib
+from collections.abc import Generator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import BinaryIO
 
 from sketch.files.errors import FileError
 
@@ -54,16 +57,26 @@ def write_text(path: str | Path, text: str) -> None:
     Packed when its name ends in .gz, with no time stamp, so that equal text gives equal bytes.
     Raises FileError when the folder cannot be written to.
     """
-    file = Path(path)
     data = text.encode("utf-8")
-    if file.suffix == ".gz":
+    if Path(path).suffix == ".gz":
         data = gzip.compress(data, compresslevel=6, mtime=0)
+    with drafted(path) as draft:
+        draft.write(data)
+
+
+@contextmanager
+def drafted(path: str | Path) -> Generator[BinaryIO]:
+    """A file to write bytes to that takes the place of `path` when the block ends well, and is gone when it does not.
+
+    Raises FileError when the folder cannot be written to.
+    """
+    file = Path(path)
     try:
         handle, name = tempfile.mkstemp(dir=file.parent, prefix=f".{file.name}.")
         draft = Path(name)
         try:
             with os.fdopen(handle, "wb") as out:
-                out.write(data)
+                yield out
                 out.flush()
                 os.fsync(out.fileno())
             draft.chmod(_mode(file))

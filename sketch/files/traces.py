@@ -12,6 +12,8 @@ import re
 from dataclasses import dataclass
 from decimal import Context, Decimal
 
+from sketch.ink import LIMITS
+
 _VALUE = re.compile(r"\s*([!'\"]?)\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[*?TF])")
 _ORDERS = {"!": 0, "'": 1, '"': 2}
 _WIDE = Context(prec=700)
@@ -57,6 +59,9 @@ def points(text: str, regular: int, intermittent: int = 0) -> list[list[Decimal 
     """
     if not text.strip():
         return []
+    count = text.count(",") + 1
+    if count > LIMITS.points:
+        raise TraceError(f"a trace of {count} points; at most {LIMITS.points} are accepted")
     channels = [_Channel() for _ in range(regular)]
     found: list[list[Decimal | None]] = []
     for index, written in enumerate(text.split(",")):

@@ -6,12 +6,14 @@ references and deep nesting are refused (defusedxml), so that no file can blow u
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 from xml.sax import SAXException, SAXParseException
 from xml.sax.handler import ContentHandler
+from xml.sax.saxutils import escape, quoteattr
 from xml.sax.xmlreader import AttributesImpl
 
 import defusedxml.sax
@@ -21,6 +23,14 @@ from sketch.files.errors import FileError
 
 _MOST_NESTED = 64
 """Elements within one another; ink nests a handful."""
+_MOST_ELEMENTS = 300_000
+"""Elements of a file: a gesture has one for each point, and a stroke at most 200,000 points."""
+_LONGEST_TEXT = 1 << 24
+"""Characters directly inside an element: a trace of 200,000 points has some four million."""
+
+
+UNWRITABLE = re.compile(r"[^\t\n\r\x20-\uD7FF\uE000-\uFFFD\U00010000-\U0010FFFF]")
+"""A character that XML has no way to write."""
 
 
 @dataclass(slots=True)
@@ -36,6 +46,15 @@ class Element:
     @property
     def text(self) -> str:
         return "".join(self.pieces)
+
+    def written(self) -> str:
+        """The element as XML again, its text before its children; `id` and `lang` as XML's own."""
+        names = {"id": "xml:id", "lang": "xml:lang"}
+        attributes = "".join(
+            f" {names.get(name, name)}={quoteattr(value)}" for name, value in self.attributes.items()
+        )
+        inside = escape(self.text.strip()) + "".join(child.written() for child in self.children)
+        return f"<{self.name}{attributes}>{inside}</{self.name}>"
 
     def named(self, name: str) -> Iterator[Element]:
         """The children of that name."""
@@ -76,6 +95,8 @@ class _TreeBuilder(ContentHandler):
         self.root: Element | None = None
         self._open: list[Element] = []
         self._locator: Any = None
+        self._elements = 0
+        self._written = 0
 
     def setDocumentLocator(self, locator: Any) -> None:
         self._locator = locator
@@ -88,6 +109,10 @@ class _TreeBuilder(ContentHandler):
         else:
             self.root = element
         self._open.append(element)
+        self._elements += 1
+        self._written = 0
+        if self._elements > _MOST_ELEMENTS:
+            raise SAXException(f"holds more than {_MOST_ELEMENTS} elements; split it")
         if len(self._open) > _MOST_NESTED:
             raise SAXException(f"nests elements more than {_MOST_NESTED} deep at line {element.line}")
 
@@ -95,6 +120,12 @@ class _TreeBuilder(ContentHandler):
         self._open.pop()
 
     def characters(self, content: str) -> None:
+        self._written += len(content)
+        if self._written > _LONGEST_TEXT:
+            element = self._open[-1]
+            raise SAXException(
+                f"line {element.line}: <{element.name}> holds more than {_LONGEST_TEXT} characters of text"
+            )
         self._open[-1].pieces.append(content)
 
 

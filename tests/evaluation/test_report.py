@@ -86,6 +86,9 @@ def test_its_links_lead_somewhere_and_what_was_typed_is_escaped(html):
 
 def test_every_diagram_is_shown_in_every_recognizers_hands_right_and_wrong(html):
     assert set(ABOUT) == set(PROBLEMS)
+    html = re.sub(
+        r'<section id="differ">.*?</section>', "", html, flags=re.DOTALL
+    )  # shows some pages besides
     parsed = structure(html)
     words = " ".join(" ".join(parsed.text).split())
     assert set(PROBLEMS) <= parsed.ids

@@ -1,0 +1,179 @@
+"""The report's parts beyond tables of scores: standings with their doubts, curves, disagreements, and how to have it again."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from markupsafe import Markup
+
+from evaluation.contest import Contest
+from evaluation.disagreements import disagreements
+from evaluation.exports import as_csv, as_latex
+from evaluation.graph import GraphLayout, line_graph
+from evaluation.illustrations import illustrate
+from evaluation.leaderboard import Standings
+from evaluation.leaderboard_tables import standing_tables
+from evaluation.metrics.calibration import reliability, risk_coverage
+from evaluation.metrics.motion import TIMES
+from evaluation.page_contest import ORACLE
+from evaluation.page_scores import summarize
+from evaluation.statistics.diagram import critical_difference_diagram
+from evaluation.stress import AXES
+from evaluation.stress_contest import Curve
+from evaluation.stress_tables import stress_tables
+from evaluation.stroke_contest import StrokeResult
+from evaluation.suites import StrokeSuite
+from evaluation.table import Table
+from evaluation.textbook_pens import pens_table
+
+RISING, FALLING = GraphLayout(names_left=True), GraphLayout()
+MOST_PAGES = 3
+"""Pages shown on which the motions of the readings differ."""
+
+
+def leaderboard(of: Standings) -> dict[str, Any]:
+    """Every measure with its interval; the ranks over all suites."""
+    return {
+        "about": (
+            "Each figure with its 95 % interval: writers are resampled whole, the same ones for all recognizers. "
+            "Pairs are compared on the same rows, p corrected by Holm for all pairs of a table."
+        ),
+        "tables": standing_tables(of),
+        "diagram": Markup(critical_difference_diagram(of.ranks)) if of.ranks else "",
+        "order": _order(of),
+    }
+
+
+def curves_of(contest: Contest) -> list[dict[str, Any]]:
+    """Figures: reliability and risk for each suite of strokes, divergence for pages, stress for each axis."""
+    figures: list[dict[str, Any]] = []
+    for suite, results in contest.stroke_suites():
+        if suite.labels and results and results[0].sure:
+            figures += _confidence(suite, results)
+    pages = [result for result in contest.page_results if result.pages]
+    if pages:
+        times = np.array(TIMES)
+        curves = {r.name: (times, 100 * np.array(summarize(r.pages).divergence)) for r in pages}
+        n = len(pages[0].pages)
+        figures.append(
+            _figure(
+                "Divergence of the motions",
+                f"mean over {n} pages, of the diagram's size",
+                line_graph(curves, "time, s", "motion error, %", RISING),
+            )
+        )
+    return figures
+
+
+def stress_of(contest: Contest) -> dict[str, Any]:
+    """Curves against every axis of stress, and their tables."""
+    figures: list[dict[str, Any]] = []
+    for axis, measure in dict.fromkeys((curve.axis, curve.measure) for curve in contest.curves):
+        own = [curve for curve in contest.curves if (curve.axis, curve.measure) == (axis, measure)]
+        told = "balanced accuracy, %" if measure == "accuracy" else "motion error, %"
+        n = own[0].values[0].n
+        curves = {curve.name: _along(curve) for curve in own}
+        what = "strokes" if measure == "accuracy" else "pages"
+        figures.append(
+            _figure(
+                AXES[axis].about,
+                f"{n} {what} at each level",
+                line_graph(curves, _axis(axis), told, FALLING if measure == "accuracy" else RISING),
+            )
+        )
+    return {"figures": figures, "tables": stress_tables(contest.curves, contest.groups)}
+
+
+def explorer(contest: Contest) -> dict[str, Any]:
+    """The strokes on which recognizers differ, and pages whose readings move differently."""
+    shown = [
+        {
+            "label": one.label,
+            "where": f"{one.suite}, row {one.row}",
+            "found": f"{one.cusps} cusps (ends included), {one.crossings} crossings",
+            "picture": Markup(one.picture),
+            "attention": Markup(one.attention),
+            "claims": [
+                {"name": name, "claim": claim, "sure": f"{100 * sure:.0f}", "right": right}
+                for name, claim, sure, right in one.claims
+            ],
+        }
+        for one in disagreements(contest)
+    ]
+    pages: list[Any] = []
+    if contest.pages is not None:
+        rivals = [result for result in contest.page_results if result.name != ORACLE]
+        for k, page in enumerate(contest.pages.pages):
+            same = {result.pages[k].same_outcome for result in rivals}
+            if len(same) > 1 and len(pages) < MOST_PAGES:
+                pages.append(illustrate((page, contest.names)))
+    return {"strokes": shown, "pages": pages}
+
+
+def exported(tables: Sequence[Table]) -> list[dict[str, str]]:
+    """Every table as CSV and LaTeX."""
+    return [{"caption": table.caption, "csv": as_csv(table), "latex": as_latex(table)} for table in tables]
+
+
+def all_tables(contest: Contest, of: Standings, others: Sequence[Table]) -> list[Table]:
+    """The tables of the report, in its order."""
+    penned = [pens_table(contest.penned)] if contest.penned else []
+    return [*standing_tables(of), *others, *penned, *stress_tables(contest.curves, contest.groups)]
+
+
+def _order(of: Standings) -> str:
+    if of.order is None:
+        return ""
+    f = of.order
+    return (
+        f"Over {f.n} suites (each suite of strokes by balanced accuracy, each diagram by its outcome) Friedman's χ² is {f.chi2:.2f} "
+        f"(p = {f.p:.2g}), Iman and Davenport's F {f.f:.2f} (p = {f.f_p:.2g}), Kendall's W {f.w:.2f}. Suites of one generator are not "
+        "independent of one another: the diagram is a picture of the order, not a proof of it."
+    )
+
+
+def _confidence(suite: StrokeSuite, results: Sequence[StrokeResult]) -> list[dict[str, Any]]:
+    even = np.array([0.0, 1.0])
+    reliable = {"perfect": (100 * even, 100 * even)}
+    risks = {}
+    for result in results:
+        bins = reliability(result.sure, result.right)
+        reliable[result.name] = (
+            100 * np.array([b.sure for b in bins]),
+            100 * np.array([b.right for b in bins]),
+        )
+        risk = risk_coverage(result.sure, result.right)
+        risks[result.name] = (100 * np.array(risk.coverage), 100 * np.array(risk.risk))
+    about = f"{suite.name}, n = {len(suite.labels)}"
+    return [
+        _figure("Reliability", about, line_graph(reliable, "confidence, %", "right, %", RISING)),
+        _figure(
+            "Risk when the unsure are refused",
+            about,
+            line_graph(risks, "kept, %", "wrong of the kept, %", RISING),
+        ),
+    ]
+
+
+def _along(curve: Curve) -> tuple[Any, Any]:
+    """A curve's levels as they lie on its axis: percent as percent, rates as the time between points."""
+    levels = np.array(curve.levels)
+    if AXES[curve.axis].unit == "Hz":
+        levels = np.where(np.isinf(levels), 0.0, 1000.0 / np.where(np.isinf(levels), 1.0, levels))
+    elif AXES[curve.axis].unit.startswith("%"):
+        levels = 100 * levels
+    elif curve.axis == "scale":
+        levels = np.log2(levels)
+    order = np.argsort(levels, kind="stable")
+    return levels[order], 100 * np.array([value.value for value in curve.values])[order]
+
+
+def _axis(axis: str) -> str:
+    unit = {"Hz": "ms between points"}.get(AXES[axis].unit, AXES[axis].unit)
+    return f"{axis}, {'doublings' if axis == 'scale' else unit}"
+
+
+def _figure(title: str, about: str, svg: str) -> dict[str, Any]:
+    return {"title": title, "about": about, "svg": Markup(svg)}
