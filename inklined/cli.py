@@ -13,7 +13,7 @@ from collections.abc import Sequence
 
 import typer
 
-from inklined.commands import compare, generate, observe, problems, reading, recognizers, train
+from inklined.commands import compare, generate, observe, problems, reading, recognizers, studio, train
 
 HELP = """Ink that knows physics: reads pages of pen strokes, sets them in motion, and compares
 recognizers by what comes out. Without a command: inklined compare."""
@@ -41,6 +41,7 @@ reading.register(app)
 observe.register(app)
 generate.register(app)
 problems.register(app)
+studio.register(app)
 train.register(app)
 
 

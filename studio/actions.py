@@ -18,6 +18,7 @@ from sketch.formula.parse import expression
 from sketch.ink import Ink, Stroke
 from sketch.page import SketchError
 from sketch.shapes import Point
+from studio.asked import list_of, number_of, point_of, text_of, whole_of
 from studio.board import NOTHING, Board, Selection, moved, with_stroke, without
 from studio.limits import LIMITS, Refused
 
@@ -122,7 +123,19 @@ class Open:
 
 
 Action = (
-    Draw | Read | Erase | Select | Move | Fix | Associate | Dissociate | Write | Leave | Correct | Title | Open
+    Draw
+    | Read
+    | Erase
+    | Select
+    | Move
+    | Fix
+    | Associate
+    | Dissociate
+    | Write
+    | Leave
+    | Correct
+    | Title
+    | Open
 )
 KINDS: Mapping[str, type[Action]] = {
     kind.__name__.lower(): kind
@@ -236,7 +249,7 @@ def _value(value: object, of: str, name: str) -> Any:
     match of:
         case "str":
             most = LIMITS.formula if name == "text" else LIMITS.title if name == "title" else None
-            return _text(value, name, most)
+            return text_of(value, name, most)
         case "Rule":
             if value not in RULES:
                 raise Refused(f"{name} must be one of {', '.join(RULES)}")
@@ -246,47 +259,12 @@ def _value(value: object, of: str, name: str) -> Any:
                 raise Refused(f"{name} must be true or false")
             return value
         case "float":
-            return _number(value, name)
+            return number_of(value, name)
         case "int" | "int | None":
-            return None if value is None and of != "int" else _whole(value, name)
+            return None if value is None and of != "int" else whole_of(value, name)
         case "Point" | "Point | None":
-            return None if value is None and of != "Point" else _point(value, name)
+            return None if value is None and of != "Point" else point_of(value, name)
         case "tuple[int, ...]":
-            return tuple(_whole(one, name) for one in _list(value, name))
+            return tuple(whole_of(one, name) for one in list_of(value, name))
         case _:
-            return tuple(_text(one, name, 80) for one in _list(value, name))
-
-
-def _text(value: object, name: str, most: int | None) -> str:
-    if not isinstance(value, str) or (most is not None and len(value) > most):
-        raise Refused(f"{name} must be text{'' if most is None else f' of at most {most} characters'}")
-    if any("\ud800" <= letter <= "\udfff" for letter in value):
-        raise Refused(f"{name} holds half of a surrogate pair, which is no character")
-    return value
-
-
-def _number(value: object, name: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) <= LIMITS.coordinate:
-        raise Refused(f"{name} must be a number of at most ±{LIMITS.coordinate:g}")
-    return float(value)
-
-
-def _whole(value: object, name: str) -> int:
-    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 1_000_000:
-        raise Refused(f"{name} must be a whole number from 0")
-    return value
-
-
-def _point(value: object, name: str) -> Point:
-    pair = _list(value, name)
-    if len(pair) != 2:
-        raise Refused(f"{name} must be two numbers, x and y")
-    return (_number(pair[0], name), _number(pair[1], name))
-
-
-def _list(value: object, name: str) -> list[Any]:
-    if not isinstance(value, list | tuple) or len(cast(list[Any], value)) > LIMITS.strokes:
-        raise Refused(f"{name} must be a list of at most {LIMITS.strokes} items")
-    return list(cast(list[Any], value))
-
-
+            return tuple(text_of(one, name, 80) for one in list_of(value, name))

@@ -121,7 +121,9 @@ def moved(board: Board, dx: float, dy: float) -> Board:
     the places where formulas were tapped go along with what they were tapped on."""
     chosen, sketch = board.selected, board.sketch
     parts = [part for part in sketch.components if part.label in chosen.components]
-    lines = [sketch.expressions[number] for number in sorted(chosen.lines) if number < len(sketch.expressions)]
+    lines = [
+        sketch.expressions[number] for number in sorted(chosen.lines) if number < len(sketch.expressions)
+    ]
     going = {index for index, name in enumerate(board.names) if name in chosen.strokes}
     going.update(index for part in parts for index in (*part.strokes, *_taps_on(sketch, part)))
     going.update(index for line in lines for index in line.strokes)

@@ -78,7 +78,7 @@ def understood(board: Board, shown: Sketch, name: str, stroke: Stroke, recognize
     ink = Ink((*(Stroke(thing.path) for thing in near), stroke))
     kind = recognizer.recognize(ink)[-1]
     last = len(near)
-    kinds: list[StrokeKind | None] = ["math"] * last + [kind.kind]
+    kinds: list[StrokeKind | None] = [*("math" for _ in near), kind.kind]
     if kind.kind not in ("lasso", "scribble") or last in without_object(ink, kinds):
         return Understood("drawn", Draw(name), "")
     if kind.kind == "scribble":
@@ -148,7 +148,9 @@ def _tapped(board: Board, shown: Sketch, at: Point, name: str) -> Understood:
             "tap", None, "These strokes have not been read yet: Analyze first, or type what they say; then circle and tap."
         )  # fmt: skip
     fixed = not part.fixed
-    return Understood("tap", Fix(part.label, fixed), f"{part.label} {'stays where it is' if fixed else 'can move'} now.")
+    return Understood(
+        "tap", Fix(part.label, fixed), f"{part.label} {'stays where it is' if fixed else 'can move'} now."
+    )
 
 
 def _under(shown: Sketch, at: Point, links: bool) -> Component | None:

@@ -10,6 +10,7 @@ from studio.actions import Action, Strokes, done, dumps, loads
 from studio.board import Board
 from studio.limits import LIMITS, Refused
 
+UNDO, REDO = "undo", "redo"
 KEPT = 200
 """The latest boards are all kept: undo shows them at once."""
 SPARSE = 50
@@ -46,7 +47,9 @@ class History:
     def foreseen(self, entry: str | Action) -> Board:
         """The board that an entry leads to, which is not made yet. Raises Refused where it leads nowhere."""
         if self.length >= LIMITS.actions:
-            raise Refused(f"this page has been changed {LIMITS.actions} times, the most that is kept; save it as a file and open that")
+            raise Refused(
+                f"this page has been changed {LIMITS.actions} times, the most that is kept; save it as a file and open that"
+            )
         match entry:
             case "undo":
                 if not self._actions:

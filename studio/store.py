@@ -81,7 +81,9 @@ class Store:
         version: int = self._base.execute("pragma user_version").fetchone()[0]
         if version > VERSION:
             self._base.close()
-            raise Refused(f"{path} is a notebook of a newer inklined (version {version}); update inklined to open it")
+            raise Refused(
+                f"{path} is a notebook of a newer inklined (version {version}); update inklined to open it"
+            )
         self._base.execute("pragma journal_mode = wal")
         self._base.execute("pragma synchronous = full")
         self._base.executescript(SCHEMA)
@@ -97,7 +99,9 @@ class Store:
         with self._lock:
             count: int = self._base.execute("select count(*) from pages where thrown is null").fetchone()[0]
             if count >= LIMITS.pages:
-                raise Refused(f"the notebook has {count} pages, which is the most it may have; throw some away")
+                raise Refused(
+                    f"the notebook has {count} pages, which is the most it may have; throw some away"
+                )
             self._base.execute(
                 "insert into pages (id, title, created, changed) values (?, ?, ?, ?)", (name, title, now, now)
             )
@@ -106,11 +110,14 @@ class Store:
     def pages(self, words: str = "", most: int = 500) -> list[Summary]:
         """The pages in whose name or formulas all these words stand, the last changed first."""
         asked = words.casefold().split()
-        with self._lock, closing(
-            self._base.execute(
-                "select id, title, words, strokes, created, changed from pages where thrown is null order by changed desc"
-            )
-        ) as rows:
+        with (
+            self._lock,
+            closing(
+                self._base.execute(
+                    "select id, title, words, strokes, created, changed from pages where thrown is null order by changed desc"
+                )
+            ) as rows,
+        ):
             found = (Summary(*row) for row in rows)
             kept = (
                 one for one in found if all(word in f"{one.title} {one.words}".casefold() for word in asked)
@@ -143,7 +150,14 @@ class Store:
             raise Refused(f"there is no page {name[:40]!r} in this notebook")
 
     def append(
-        self, page: str, seq: int, entry: Entry, penned: Sequence[Penned], title: str, words: str, strokes: int
+        self,
+        page: str,
+        seq: int,
+        entry: Entry,
+        penned: Sequence[Penned],
+        title: str,
+        words: str,
+        strokes: int,
     ) -> None:
         """Adds strokes and one entry to a page, all or nothing, and on disk when this returns."""
         now = time.time()
@@ -170,7 +184,9 @@ class Store:
     def log(self, page: str) -> list[Entry]:
         """All that was done to a page, in order."""
         with self._lock:
-            rows = self._base.execute("select key, entry from log where page = ? order by seq", (page,)).fetchall()
+            rows = self._base.execute(
+                "select key, entry from log where page = ? order by seq", (page,)
+            ).fetchall()
         return [Entry(*row) for row in rows]
 
     def strokes(self, page: str) -> dict[str, Penned]:

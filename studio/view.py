@@ -91,8 +91,6 @@ def state(page: str, history: History, what: Shown) -> Json:
     }
 
 
-
-
 def _line(board: Board, number: int, line: Expression) -> Json:
     return {
         "line": number,
@@ -140,7 +138,13 @@ def corrections(what: Shown) -> list[Json]:
         }
         for (rule, label), ones in made.items()
     ] + [
-        {"rule": rule, "component": label, "made": False, "why": [_WORDS[rule].format(label)], "labels": [label]}
+        {
+            "rule": rule,
+            "component": label,
+            "made": False,
+            "why": [_WORDS[rule].format(label)],
+            "labels": [label],
+        }
         for rule, label in sorted(what.board.without)
     ]
 
@@ -169,7 +173,8 @@ def next_stroke(board: Board) -> str:
     chosen = board.selected
     if chosen.lines:
         what = ", ".join(
-            board.sketch.expressions[line].text or "a formula nobody has read" for line in sorted(chosen.lines)
+            board.sketch.expressions[line].text or "a formula nobody has read"
+            for line in sorted(chosen.lines)
         )
         return f"{what}: tap a shape, wire or spring that it is said of. Drag inside the frame to move it; tap elsewhere to let go."
     if chosen:
@@ -201,6 +206,8 @@ def verdict_json(verdict: Verdict) -> Json:
     }
 
 
-def stroke_json(name: str, points: Sequence[Sequence[float]], pressure: Sequence[float] | None, pointer: str) -> Json:
+def stroke_json(
+    name: str, points: Sequence[Sequence[float]], pressure: Sequence[float] | None, pointer: str
+) -> Json:
     """A raw stroke, as far as it is to be drawn."""
     return {"id": name, "points": points, "pressure": pressure, "pointer": pointer}
