@@ -54,6 +54,7 @@ export class Painter {
 
   ink(scene: Scene): void {
     const context = this.dry.begin(scene.camera), { ink } = colours();
+    this.dry.canvas.style.opacity = scene.run ? "0.55" : "1";
     const { state, pending } = this.page;
     const owned = new Set(state.components.flatMap((part) => part.strokes));
     const selected = new Set(state.selected.strokes);
@@ -64,7 +65,7 @@ export class Painter {
       if (!stroke) continue;
       const chosen = selected.has(id) || inLines.has(id);
       const hidden = owned.has(id) || kind === "tap" || kind === "scribble" || kind === "lasso";
-      const alpha = hidden ? (scene.comparing ? 0.5 : this.fadingIn(id)) : scene.run ? 0.55 : 1;
+      const alpha = hidden ? (scene.comparing ? 0.5 : this.fadingIn(id)) : 1;
       if (alpha <= 0.01) continue;
       const [mx, my] = chosen && scene.drag ? scene.drag : [0, 0];
       this.dryInk.draw(context, { stroke, dx: dx + mx, dy: dy + my, alpha, colour: chosen ? colours().accent : ink });

@@ -34,6 +34,7 @@ export class Pointers {
     element.addEventListener("pointermove", this.move);
     element.addEventListener("pointerup", this.up);
     element.addEventListener("pointercancel", this.cancel);
+    element.addEventListener("lostpointercapture", this.up);
     element.addEventListener("pointerleave", () => says.hover(null));
     element.addEventListener("contextmenu", (event) => event.preventDefault());
     element.addEventListener("wheel", this.wheel, { passive: false });
@@ -46,6 +47,7 @@ export class Pointers {
     const tool = event.pointerType === "pen" || event.pointerType === "touch" ? event.pointerType : "mouse";
     let part = this.palm.part(tool, event.timeStamp, Math.max(event.width, event.height), event.button, this.hand);
     const at = where(event, this.element);
+    this.up(event); // whose release nobody told: what was drawn is drawn
     if (part === "draw" && tool === "touch" && this.held.size) {
       this.giveUp(); // a second finger: they move the page
       part = "move";
@@ -68,6 +70,7 @@ export class Pointers {
 
   private move = (event: PointerEvent): void => {
     if (event.pointerType === "pen") this.palm.penAt(event.timeStamp, event.buttons !== 0);
+    if (event.buttons === 0 && event.pointerType !== "touch") this.up(event);
     const held = this.held.get(event.pointerId);
     if (!held) {
       this.says.hover(toPage(this.says.camera(), where(event, this.element)));

@@ -40,7 +40,8 @@ export function drawArrows(context: CanvasRenderingContext2D, run: Run, chosen: 
     head(context, [pose.x, pose.y], tip, one.bold ? 13 : 9);
     context.stroke();
     context.font = `${one.bold ? 600 : 400} 12px system-ui, sans-serif`;
-    context.fillText(one.quantity, tip[0] + 6, tip[1] - 6);
+    context.textAlign = dx < 0 ? "right" : "left";
+    context.fillText(one.quantity, tip[0] + Math.sign(dx || 1) * 8, tip[1] + Math.sign(dy || -1) * 14);
     context.restore();
   }
 }

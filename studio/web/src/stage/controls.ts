@@ -17,7 +17,7 @@ export class Controls {
   });
   private readonly clock = el("output", { id: "clock" }, "0.00 s");
   readonly length = el("select", { id: "seconds", "aria-label": "Length of a run" },
-    ...[2, 5, 10, 30, 60].map((n) => el("option", { value: n, selected: n === 5 }, `${n} s`)));
+    ...[2, 5, 10, 30, 60].map((n) => el("option", { value: n, selected: n === 2 }, `${n} s`)));
   private readonly moving = el("span", { class: "moving", hidden: true },
     el("button", { type: "button", id: "reset", title: "Back to the start, to draw and change (R)", onclick: () => this.drives.reset() }, "Reset"),
     el("button", { type: "button", id: "back", title: "One frame back (,)", "aria-label": "One frame back", onclick: () => this.drives.step(-1) }, "◂"),
@@ -29,8 +29,8 @@ export class Controls {
   constructor(private drives: Drives) {}
 
   private speedChoice(): HTMLSelectElement {
-    const choice = el("select", { id: "speed", "aria-label": "Speed" },
-      ...[["1", "real time"], ["0.5", "half as fast"], ["0.25", "a quarter"], ["0.1", "a tenth"]].map(([value, text]) => el("option", { value: value! }, text!)));
+    const choice = el("select", { id: "speed", "aria-label": "Speed: real time or slow motion" },
+      ...[["1", "1 ×"], ["0.5", "½ ×"], ["0.25", "¼ ×"], ["0.1", "⅒ ×"]].map(([value, text]) => el("option", { value: value! }, text!)));
     choice.addEventListener("change", () => this.drives.speed(Number(choice.value)));
     return choice;
   }
