@@ -38,10 +38,14 @@ def main() -> None:
             table.setdefault(truth, Counter())[found.said] += 1
             if truth == "drawing" and found.said != "drawn":
                 kinds = item.page.truth.kinds()
-                print(f"page {item.index}: stroke {index} of {last}, a {kinds[index]}, is taken for a {found.said}")
+                print(
+                    f"page {item.index}: stroke {index} of {last}, a {kinds[index]}, is taken for a {found.said}"
+                )
             board = done(board, Draw(name), lambda _, it=stroke: it)
     for truth, row in table.items():
-        print(f"{truth:10}{sum(row.values()):6}: {', '.join(f'{kind} {count}' for kind, count in row.most_common())}")
+        print(
+            f"{truth:10}{sum(row.values()):6}: {', '.join(f'{kind} {count}' for kind, count in row.most_common())}"
+        )
 
 
 if __name__ == "__main__":

@@ -75,8 +75,9 @@ def understood(board: Board, shown: Sketch, name: str, stroke: Stroke, recognize
     if diagonal(stroke.points) <= RULE.tap:
         return _tapped(board, shown, _middle(stroke.points), name)
     near = [thing for thing in things if _meets(thing.path, stroke.points)][-RULE.latest :]
+    seen = Ink((*(Stroke(path) for thing in near for path in _looks(thing)), stroke))
     ink = Ink((*(Stroke(thing.path) for thing in near), stroke))
-    kind = recognizer.recognize(ink)[-1]
+    kind = recognizer.recognize(seen)[-1]
     last = len(near)
     kinds: list[StrokeKind | None] = [*("math" for _ in near), kind.kind]
     if kind.kind not in ("lasso", "scribble") or last in without_object(ink, kinds):
@@ -119,6 +120,18 @@ def _typed(line: Expression) -> FloatArray:
     return np.array(
         [[x - wide, y - high], [x + wide, y - high], [x + wide, y + high], [x - wide, y + high], [x - wide, y - high]]
     )  # fmt: skip
+
+
+def _looks(thing: Thing) -> list[FloatArray]:
+    """What a recognizer is shown of a thing: a typed formula looks like writing, not like a box."""
+    if thing.kind != "line":
+        return [thing.path]
+    (left, top), (right, bottom) = thing.path.min(axis=0).tolist(), thing.path.max(axis=0).tolist()
+    angle = np.linspace(0.0, 5.8, 14)  # an open bow, as of a c
+    bow = np.column_stack([0.35 * RULE.letter * np.cos(angle), 0.3 * (bottom - top) * np.sin(angle)])
+    count = max(2, round((right - left) / RULE.letter))
+    middles = [(left + (k + 0.5) * (right - left) / count, (top + bottom) / 2) for k in range(count)]
+    return [bow + np.array(middle) for middle in middles]
 
 
 def _meets(path: FloatArray, stroke: FloatArray) -> bool:

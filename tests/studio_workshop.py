@@ -14,6 +14,7 @@ import time
 from collections.abc import Generator, Iterable, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -162,7 +163,7 @@ def dense(path: Iterable[Sequence[float]], step: float = 4.0, start: float = 0.0
     corners = np.array(list(path), dtype=float)
     pieces = [
         np.linspace(a, b, max(2, int(np.hypot(*(b - a)) / step)), endpoint=False)
-        for a, b in zip(corners[:-1], corners[1:], strict=True)
+        for a, b in pairwise(corners)
     ]
     points = np.concatenate([*pieces, corners[-1:]]) if pieces else corners
     return Stroke(points, start + 0.008 * np.arange(len(points)), np.full(len(points), 0.5))

@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
+from studio_workshop import PATIENCE, Pen, Served, chromium, served
 
 from studio.bundle import bundle
-from studio_workshop import PATIENCE, Pen, Served, chromium, served
 
 NewPage = Callable[[], str]
 Opened = Callable[[str], tuple[Page, Pen]]
@@ -50,7 +50,9 @@ def opened(browser: Browser, studio: Served) -> Generator[Opened]:
     errors: list[str] = []
 
     def open_page(page: str) -> tuple[Page, Pen]:
-        context = browser.new_context(viewport={"width": 1280, "height": 800}, bypass_csp=True, reduced_motion="reduce")
+        context = browser.new_context(
+            viewport={"width": 1280, "height": 800}, bypass_csp=True, reduced_motion="reduce"
+        )
         contexts.append(context)
         context.set_default_timeout(PATIENCE * 1000)
         tab = context.new_page()

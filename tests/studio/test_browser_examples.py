@@ -5,15 +5,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
-import pytest
+from PIL import Image
 from playwright.sync_api import Page
+from studio_workshop import Pen, loop, plain
 
 from data_gen.pages import page as generated
 from sketch.page import Sketch
-from studio_workshop import Pen, loop, plain
 
 PICTURES = os.environ.get("INKLINED_PICTURES")
 """A folder to put pictures of what was seen in."""
@@ -24,12 +25,36 @@ def picture(tab: Page, name: str) -> None:
         tab.screenshot(path=str(Path(PICTURES) / f"{name}.png"))
 
 
+def film(tab: Page, name: str, until: float, count: int = 20) -> None:
+    """A short GIF of the run, its frames set by the slider of the time."""
+    if not PICTURES:
+        return
+    shots: list[Image.Image] = []
+    for seconds in np.linspace(0.0, until, count).tolist():
+        tab.evaluate("seconds => { inklined.player.pause(); inklined.player.seek(seconds); }", seconds)
+        shot = (
+            Image.open(BytesIO(tab.screenshot())).convert("RGB").resize((800, 500), Image.Resampling.LANCZOS)
+        )
+        shots.append(shot.quantize(48, dither=Image.Dither.NONE))
+    pause = round(1000 * until / count)
+    shots[0].save(
+        Path(PICTURES) / f"{name}.gif",
+        save_all=True,
+        append_images=shots[1:],
+        duration=pause,
+        loop=0,
+        optimize=True,
+    )
+
+
 def drawn_and_read(tab: Page, pen: Pen, truth: Sketch) -> None:
     """Draws everything, analyzes, and types what each line says."""
     for stroke in truth.ink:
         pen.draw(stroke)
     pen.settled()
-    assert tab.evaluate("inklined.page.state.strokes.length") == len(truth.ink), "a stroke was taken for a gesture"
+    assert tab.evaluate("inklined.page.state.strokes.length") == len(truth.ink), (
+        "a stroke was taken for a gesture"
+    )
     tab.click("#analyze")
     tab.wait_for_function("inklined.page.state.components.length > 0")
     for number, line in enumerate(truth.expressions):
@@ -47,7 +72,9 @@ def drawn_and_read(tab: Page, pen: Pen, truth: Sketch) -> None:
         tab.mouse.click(*chip)
         tab.fill(".formula-text", line.text)
         tab.press(".formula-text", "Enter")
-        tab.wait_for_function("n => inklined.page.state.lines.filter(line => line.text !== null).length === n", arg=number + 1)
+        tab.wait_for_function(
+            "n => inklined.page.state.lines.filter(line => line.text !== null).length === n", arg=number + 1
+        )
 
 
 def said_of(tab: Page, pen: Pen, truth: Sketch) -> None:
@@ -78,7 +105,9 @@ def rewritten(tab: Page, was: str, now: str) -> None:
     tab.wait_for_function("now => inklined.page.state.lines.some(line => line.text === now)", arg=now)
 
 
-def test_e6_a_ball_rolls_down_an_incline_and_its_speed_is_a_straight_line(new_page: Callable[[], str], opened) -> None:
+def test_e6_a_ball_rolls_down_an_incline_and_its_speed_is_a_straight_line(
+    new_page: Callable[[], str], opened
+) -> None:
     truth = generated("incline-and-ball", 7, 0, "right").truth
     tab, pen = opened(new_page())
     drawn_and_read(tab, pen, truth)
@@ -86,12 +115,15 @@ def test_e6_a_ball_rolls_down_an_incline_and_its_speed_is_a_straight_line(new_pa
     picture(tab, "e6-read")
     assert "rolls" in ran(tab)
     tab.wait_for_selector(".uplot")
-    speeds = tab.evaluate("Array.from(inklined.scene.run.series.get(`${inklined.scene.chosen[0].body} velocity`).values)")
+    speeds = tab.evaluate(
+        "Array.from(inklined.scene.run.series.get(`${inklined.scene.chosen[0].body} velocity`).values)"
+    )
     speed = np.hypot(*np.array(speeds).reshape(-1, 2).T)[:48]  # while it is on the ramp
     line = np.polyfit(np.arange(48), speed, 1)
     assert np.abs(np.polyval(line, np.arange(48)) - speed).max() < 0.01 * np.ptp(speed)
     tab.evaluate("inklined.player.pause(); inklined.player.seek(0.6)")
     picture(tab, "e6-rolls")
+    film(tab, "e6", 1.2)
     right = next(line.text for line in truth.expressions if line.text and line.text.startswith("f_1"))
     rewritten(tab, right, "f_1 = 1.2 |W| cos(theta)")
     tab.wait_for_selector("#remarks .verdict.wrong")
@@ -100,7 +132,9 @@ def test_e6_a_ball_rolls_down_an_incline_and_its_speed_is_a_straight_line(new_pa
     picture(tab, "e6-flies-off")
 
 
-def test_e7_a_box_on_two_wires_stays_and_a_wrong_tension_breaks_a_wire(new_page: Callable[[], str], opened) -> None:
+def test_e7_a_box_on_two_wires_stays_and_a_wrong_tension_breaks_a_wire(
+    new_page: Callable[[], str], opened
+) -> None:
     truth = generated("box-on-two-wires", 7, 0, "right").truth
     tab, pen = opened(new_page())
     drawn_and_read(tab, pen, truth)
@@ -114,5 +148,3 @@ def test_e7_a_box_on_two_wires_stays_and_a_wrong_tension_breaks_a_wire(new_page:
     assert "stays" not in told and "broke" in plain(tab.inner_text(".happened")) + told
     tab.evaluate("inklined.player.pause(); inklined.player.seek(0.5)")
     picture(tab, "e7-breaks")
-
-

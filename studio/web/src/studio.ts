@@ -387,7 +387,7 @@ export class Studio {
   /** The page means something else now; quietly: a stroke has only been confirmed. */
   private meant(quietly = false): void {
     const { state } = this.page;
-    if (this.fitNext && state.seq) {
+    if (this.fitNext) {
       this.fitNext = false;
       if (this.page.box()) this.everything();
     }
