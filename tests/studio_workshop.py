@@ -224,7 +224,7 @@ class Pen:
             },
         )  # fmt: skip
 
-    def draw(self, stroke: Stroke, most: int = 40) -> None:
+    def draw(self, stroke: Stroke, most: int = 28) -> None:
         """Draws a stroke given in page units."""
         chosen = np.unique(np.linspace(0, len(stroke) - 1, min(most, len(stroke))).astype(int))
         points = self.on_screen(stroke.points[chosen].tolist())

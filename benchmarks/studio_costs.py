@@ -1,6 +1,6 @@
 """What the studio costs in a real Chromium.
 
-    python benchmarks/studio.py --json studio.json
+    python benchmarks/studio_costs.py --json studio.json
 
 load: a first load over loopback, milliseconds and bytes; pen: work in each pointer event with 500 strokes on the page;
 analyze: from the click to the drawn page of 40 strokes; formula: from pressing a key to the formula shown; play: milliseconds
