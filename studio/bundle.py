@@ -9,8 +9,11 @@ npm's registry is asked once, at install; nothing is loaded from anywhere when t
 
 from __future__ import annotations
 
+import fcntl
 import os
 import sys
+from collections.abc import Generator
+from contextlib import contextmanager
 from hashlib import sha256
 from pathlib import Path
 
@@ -46,11 +49,20 @@ def current() -> bool:
 
 def bundle() -> None:
     """Makes the bundle if need be. Raises BundleError where node or npm's registry cannot be had."""
-    if current():
-        return
-    install()
-    _run(["node", "build.mjs"], "esbuild could not bundle the front end")
-    STAMP.write_text(made_of(), encoding="utf-8")
+    with _alone():
+        if current():
+            return
+        install()
+        _run(["node", "build.mjs"], "esbuild could not bundle the front end")
+        STAMP.write_text(made_of(), encoding="utf-8")
+
+
+@contextmanager
+def _alone() -> Generator[None]:
+    """One process builds at a time; the others wait and find it done."""
+    with (WEB / ".building").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
 
 
 def install() -> None:
@@ -65,7 +77,8 @@ def install() -> None:
 
 def check() -> None:
     """Type-checks the front end and runs its unit tests. Raises BundleError where one fails."""
-    install()
+    with _alone():
+        install()
     _run(["node", "node_modules/typescript/bin/tsc", "--noEmit", "-p", "."], "the types do not fit")
     _run(["node", "build.mjs", "test"], "the unit tests could not be built")
     _run(["node", "--test", "build-test/"], "a unit test of the front end fails")
