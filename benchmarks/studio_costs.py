@@ -12,7 +12,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import sys
 import tempfile
 import time
 import urllib.request
@@ -20,16 +19,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 from playwright.sync_api import Page, sync_playwright
-from studio_workshop import Pen, Served, chromium, dense, ring, served
 
 from data_gen.pages import page as generated
 from sketch.files import document
 from sketch.ink import Ink
 from sketch.page import Component, Sketch
 from sketch.shapes import Circle, Polygon
+from studio_workshop import Pen, Served, chromium, dense, ring, served
 
 
 def main() -> None:

@@ -13,7 +13,6 @@ import argparse
 import json
 import os
 import random
-import sys
 import tempfile
 import threading
 import time
@@ -23,10 +22,8 @@ from typing import Any
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
-from studio_workshop import RAMP, Client, Served, client, dense, ring, served, start, stroke_message
-
 from data_gen.pages import page as generated
+from studio_workshop import RAMP, Client, Served, client, dense, ring, served, start, stroke_message
 
 
 def main() -> None:

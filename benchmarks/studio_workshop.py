@@ -1,4 +1,4 @@
-"""What tests of the studio share: a server of its own, a client that speaks its protocol, a browser with a pen."""
+"""What tests and benchmarks of the studio share: a server of its own, a client that speaks its protocol, a browser with a pen."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from websockets.sync.client import ClientConnection, connect
 
 from sketch.ink import Ink, Stroke
@@ -93,7 +94,9 @@ class Client:
     socket: ClientConnection
     prefix: str = "k"
     told: dict[str, Any] = field(default_factory=dict[str, Any])
-    packed: list[tuple[dict[str, Any], np.ndarray]] = field(default_factory=list)
+    packed: list[tuple[dict[str, Any], NDArray[np.float32]]] = field(
+        default_factory=list[tuple[dict[str, Any], NDArray[np.float32]]]
+    )
     count: int = 0
 
     @property
