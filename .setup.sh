@@ -11,7 +11,7 @@ inklined_python() {
     return 1
 }
 
-# inklined_install EXTRAS: "" for the app, "[dev]" for every check. "[dev]" contains the app.
+# inklined_install EXTRAS: "[studio]" for the app, "[dev]" for every check. "[dev]" contains the app.
 inklined_install() {
     venv=$home/.venv
     if [ ! -x "$venv/bin/python" ]; then
@@ -27,4 +27,6 @@ inklined_install() {
     "$venv/bin/python" -m pip install --quiet --disable-pip-version-check --editable "$home$1"
     "$venv/bin/inklined" compile
     printf '%s' "$state" > "$venv/installed$1"
+    # The studio's front end; without npm's registry all but `./run studio` works, which tries again when it is started.
+    (cd "$home" && "$venv/bin/python" -m studio.bundle) || echo "The studio's front end is not built; all else works." >&2
 }

@@ -26,6 +26,7 @@ from inklined.commands import (
     recognizers,
     reproduce,
     studies,
+    studio,
     train,
 )
 from inklined.typed import TYPED
@@ -66,6 +67,7 @@ reading.register(app)
 observe.register(app)
 generate.register(app)
 problems.register(app)
+studio.register(app)
 train.register(app)
 compile.register(app)
 

