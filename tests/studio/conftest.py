@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
-from studio_workshop import PATIENCE, Pen, Served, chromium, served
 
 from studio.bundle import bundle
+from studio_workshop import PATIENCE, Pen, Served, chromium, served
 
 NewPage = Callable[[], str]
 Opened = Callable[[str], tuple[Page, Pen]]

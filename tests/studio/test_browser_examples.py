@@ -11,10 +11,10 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 from playwright.sync_api import Page
-from studio_workshop import Pen, loop, plain
 
 from data_gen.pages import page as generated
 from sketch.page import Sketch
+from studio_workshop import Pen, loop, plain
 
 PICTURES = os.environ.get("INKLINED_PICTURES")
 """A folder to put pictures of what was seen in."""

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 import pytest
 from playwright.sync_api import Page
-from studio_workshop import RAMP, Client, Pen, Served, client, dense, loop, ring, zigzag
 
 from sketch.files import document, inkml
 from sketch.ink import Ink
+from studio_workshop import RAMP, Client, Pen, Served, client, dense, loop, ring, zigzag
 
 INK = {
     "ramp": dense(RAMP),

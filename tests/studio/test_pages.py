@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from studio_workshop import RAMP, dense, dot, loop, ring, zigzag
 
 from sketch.formula.parse import expression
 from sketch.ink import Ink, Stroke
@@ -39,6 +38,7 @@ from studio.limits import Refused
 from studio.reading import Reading, analyzed, rival
 from studio.store import Entry, Penned, Store
 from studio.view import shown, state
+from studio_workshop import RAMP, dense, dot, loop, ring, zigzag
 
 STROKES = {
     "ramp": dense(RAMP),

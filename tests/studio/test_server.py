@@ -16,13 +16,13 @@ from typing import Any
 import numpy as np
 import pytest
 from hypothesis.errors import Unsatisfiable
-from studio_workshop import PATIENCE, RAMP, Client, Served, client, dense, ring, start, stroke_message
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from physics.pipeline import move
 from sketch.files import document
 from studio.limits import LIMITS
+from studio_workshop import PATIENCE, RAMP, Client, Served, client, dense, ring, start, stroke_message
 
 
 def asked(url: str, method: str = "GET", data: bytes | None = None, **headers: str) -> tuple[int, Any]:
