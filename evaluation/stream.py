@@ -150,7 +150,7 @@ def on_cluster(address: str) -> Engine:
 
             def ask(shard: Shard) -> Any:
                 future = client.submit(work, shard, pure=False, retries=RETRIES)
-                asked[future.key] = shard
+                asked[str(future.key)] = shard
                 return future
 
             running = as_completed([ask(shard) for shard in islice(waiting, room)], loop=client.loop)
@@ -160,7 +160,7 @@ def on_cluster(address: str) -> Engine:
                 part = future.result()
                 done += 1
                 progress("Evaluating shards", done, len(left))
-                yield asked.pop(future.key), part
+                yield asked.pop(str(future.key)), part
                 after = next(waiting, None)
                 if after is not None:
                     running.add(ask(after))

@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from sketch.geometry import path_length
@@ -154,7 +155,7 @@ def _placed(points: FloatArray, along: FloatArray, at: FloatArray) -> FloatArray
     return (1 - share) * points[place - 1] + share * points[place]
 
 
-def _matching(first: FloatArray, other: FloatArray) -> FloatArray:
+def _matching(first: FloatArray, other: FloatArray) -> NDArray[np.intp]:
     """Which point of the other goes with each of the first, by the least total distance."""
     apart = np.linalg.norm(first[:, None] - other[None], axis=2)
     return linear_sum_assignment(apart)[1]

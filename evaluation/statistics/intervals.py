@@ -123,7 +123,7 @@ def _resampled(
     counts = np.bincount(cell, minlength=groups * width).reshape(groups, width).astype(float)
     sums = np.stack(
         [
-            np.bincount(cell, weights=column, minlength=groups * width).reshape(groups, width)
+            np.bincount(cell, weights=column, minlength=groups * width).reshape(groups, width).astype(float)
             for column in table
         ]
     )

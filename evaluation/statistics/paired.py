@@ -8,6 +8,7 @@ correlation (Kerby 2014), and Cliff's delta (1993).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -84,7 +85,7 @@ def wilcoxon(first: ArrayLike, second: ArrayLike) -> SignedRanks:
         return SignedRanks(None, None, 0, None)
     ranks = stats.rankdata(np.abs(apart))
     up, down = float(ranks[apart > 0].sum()), float(ranks[apart < 0].sum())
-    tested = stats.wilcoxon(apart)
+    tested: Any = stats.wilcoxon(apart)
     return SignedRanks(min(up, down), float(tested.pvalue), len(apart), (up - down) / (up + down))
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ceil
+from typing import Any
 
 import numpy as np
 from scipy import stats
@@ -34,7 +35,7 @@ def mcnemar_power(n: int, only_first: float, only_second: float, alpha: float = 
         raise ValueError(
             f"shares {only_first} and {only_second}: rows on which they differ are above 0 and at most all"
         )
-    spread = stats.binom(n, differing)
+    spread: Any = stats.binom(n, differing)
     counts = np.arange(int(spread.ppf(1e-10)), int(spread.ppf(1 - 1e-10)) + 1)
     counts = counts[counts > 0]
     # The test says yes when the lesser count is at most c: the greatest c of which twice the tail is within alpha.

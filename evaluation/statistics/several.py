@@ -106,7 +106,7 @@ def ranking(names: Sequence[str], scores: ArrayLike, high: bool = True, alpha: f
     """The recognizers of these names by their scores (n suites, k recognizers)."""
     table = np.asarray(scores, dtype=float)
     mean = ranks_of(table, high).mean(axis=0)
-    order = np.argsort(mean, kind="stable").tolist()
+    order = [int(k) for k in np.argsort(mean, kind="stable")]
     critical = critical_difference(len(names), len(table), alpha)
     ranks = [float(mean[k]) for k in order]
     return Ranking(tuple(names[k] for k in order), tuple(ranks), critical, _groups(ranks, critical))

@@ -96,7 +96,7 @@ class Program:
             raise self._pipe.error(
                 f'claims {_shown(said)} of stroke {k}; needed are "scores", or "kind" and "confidence"'
             )
-        return claim_for(cast(StrokeKind, kind), float(sure), rejected)
+        return claim_for(kind, float(sure), rejected)
 
     def _scores(self, said: Mapping[str, Any], k: int) -> Any:
         strange = sorted(set(said) - set(STROKE_KINDS))
