@@ -1,4 +1,4 @@
-"""`inklined protocol`, `early`, `stress`, `gestures` and `plan`: examinations of recognizers, and how many rows they need."""
+"""`inklined protocol`, `early`, `stress`, `gestures`, `agreement` and `plan`: examinations of recognizers, and how many rows they need."""
 
 from __future__ import annotations
 
@@ -35,6 +35,7 @@ def register(app: typer.Typer) -> None:
         stress
     )
     app.command(epilog="Example: inklined gestures gestures.parquet --per-writer --tables tables")(gestures)
+    app.command(epilog="Example: inklined agreement proposals.csv --json agreement.json")(agreement)
     app.command(epilog="Example: inklined plan --first 0.05 --second 0.01 --per-writer 20 --alike 0.1")(plan)
 
 
@@ -187,6 +188,27 @@ def gestures(
         except ValueError as error:
             raise FileError(", ".join(map(str, files)), str(error)) from None
     _tell(found, figures, json_file, tables)
+
+
+def agreement(
+    proposals: Annotated[
+        Path,
+        typer.Argument(help="CSV: a head with the referents, a row a participant, each cell the proposal."),
+    ],
+    json_file: Json = None,
+    tables: Folder = None,
+) -> None:
+    """How far do participants of an elicitation study agree? Agreement rates (AGATe), and whether they differ."""
+    from evaluation.gestures.elicitation import elicitation, elicitation_table, plain
+    from sketch.files.errors import FileError
+    from sketch.files.store import read_text
+
+    (place,) = there([proposals])
+    try:
+        found = elicitation(read_text(place))
+    except ValueError as error:
+        raise error if isinstance(error, FileError) else FileError(place, str(error)) from None
+    _tell([elicitation_table(found)], plain(found), json_file, tables)
 
 
 def plan(

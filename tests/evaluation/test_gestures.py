@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from evaluation.gestures import agreement
+from evaluation.gestures.elicitation import elicitation, rate_interval
 from evaluation.gestures.relative import relative_accuracy, resampled, task_axis
 from evaluation.gestures.tables import MEASURES, study
 from sketch.files.jsonl import Row
@@ -142,3 +143,37 @@ def test_a_study_of_gestures_has_a_row_for_every_label_and_leaves_out_what_is_no
     assert figures["relative_accuracy"]["a"]["shape_error"]["clusters"] == 3
     with pytest.raises(ValueError, match="no row bears a label"):
         study([])
+
+
+def test_an_elicitation_study_is_read_from_a_table_of_proposals():
+    text = "zoom,undo\n" + "".join(
+        f"{a},{b}\n" for a, b in zip("p" * 15 + "q" * 3 + "rr", "abcdefghij" * 2, strict=True)
+    )
+    found = elicitation(text)
+    zoom, undo = found.referents
+    assert zoom.agreement.value == pytest.approx(109 / 190)
+    assert (zoom.agreement.n, zoom.distinct, zoom.favourite, zoom.favoured) == (20, 3, "p", 15)
+    assert zoom.agreement.low < 109 / 190 < zoom.agreement.high
+    assert undo.agreement.value == pytest.approx(10 / 190)
+    assert found.p is not None and found.p < 1e-9
+    with_none = elicitation('a\nx\nx\n""\n  \nx\n')  # an empty line is nobody, an empty word no proposal
+    assert with_none.referents[0].agreement.n == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [("", "line 1"), ("a,b\nx,y\nz\n", "line 3 has 1 proposals"), ("a\nx\n", "two at least")],
+)
+def test_a_table_that_is_no_study_says_where(text: str, says: str):
+    with pytest.raises(ValueError, match=says):
+        elicitation(text)
+
+
+def test_the_jackknife_interval_of_agreement_holds_the_truth():
+    """Proposals drawn with chances 0.6, 0.3, 0.1: two participants agree with chance 0.46."""
+    rng = np.random.default_rng(4)
+    held = 0
+    for _ in range(200):
+        found = rate_interval(rng.choice(3, size=25, p=[0.6, 0.3, 0.1]).tolist())
+        held += (found.low or 0) <= 0.46 <= (found.high or 0)
+    assert held / 200 >= 0.9
