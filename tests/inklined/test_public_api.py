@@ -24,7 +24,7 @@ def test_ink_and_the_file_that_holds_it_are_read_alike_but_for_typed_mathematics
 
 def test_what_was_read_can_be_moved():
     drawn = page("mass-on-spring", 8, 1)
-    motion = inklined.move(inklined.analyze(drawn.truth.ink, "geometric"), seconds=0.5, rate=60)
+    motion = inklined.move(inklined.analyze(drawn.truth.ink, "learned"), seconds=0.5, rate=60)
     assert motion.trajectory.times[-1] == pytest.approx(0.5)
     solids = [part for part in drawn.truth.components if part.kind in ("circle", "polygon")]
     assert len(motion.trajectory.bodies) == len(solids) > 1

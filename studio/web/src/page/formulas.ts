@@ -10,6 +10,7 @@ const MARK = { right: "✓", wrong: "✗", "not determined": "?" } as const;
 export class Formulas {
   private readonly chips = new Map<number, HTMLElement>();
   private bright = new Set<number>();
+  private camera: Camera | null = null;
 
   constructor(private overlay: HTMLElement, private page: PageModel, private edit: (line: number) => void) {}
 
@@ -26,6 +27,7 @@ export class Formulas {
       this.overlay.append(chip);
     }
     this.light(lit);
+    if (this.camera) this.place(this.camera); // at once: a chip in the corner for a frame flickers, and is clicked beside
   }
 
   private chip(line: Line, verdict: Verdict | undefined): HTMLElement {
@@ -52,6 +54,7 @@ export class Formulas {
   }
 
   place(camera: Camera): void {
+    this.camera = camera;
     for (const line of this.page.state.lines) {
       const chip = this.chips.get(line.line), spot = this.spot(line);
       if (!chip || !spot) continue;
