@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
+from typing import Literal
 
 import numpy as np
 
@@ -33,8 +34,8 @@ class GraphLayout:
     bottom: int = 34
     ticks: int = 4
     """About so many steps along an axis."""
-    names_left: bool = False
-    """The curves' names stand at the left, for curves that rise to the right."""
+    names: Literal["top right", "top left", "bottom left"] = "top right"
+    """Where the curves' names stand: the left for curves that rise to the right, the bottom for those that stay high."""
     points: int = 200
     """A curve of more points is thinned to so many: more than there are pixels is waste."""
 
@@ -69,7 +70,10 @@ def line_graph(
     )
     parts = [opening]
     floor = layout.top + high
-    names_at, anchor = (layout.left + 4, "start") if layout.names_left else (layout.left + wide - 4, "end")
+    names_at, anchor = (
+        (layout.left + wide - 4, "end") if layout.names == "top right" else (layout.left + 4, "start")
+    )
+    names_from = floor - 6 - 12 * (len(curves) - 1) if layout.names == "bottom left" else layout.top + 10
     for tick in x_ticks:
         parts.append(_line(across(tick), layout.top, across(tick), floor))
         parts.append(_text(across(tick), floor + 12, f"{tick:g}", "middle"))
@@ -84,7 +88,7 @@ def line_graph(
             path = " ".join(f"{across(a):.1f},{down(b):.1f}" for a, b in run)
             parts.append(f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="1.8"/>')
         parts.append(
-            f'<text x="{names_at}" y="{layout.top + 10 + 12 * k}" text-anchor="{anchor}" '
+            f'<text x="{names_at}" y="{names_from + 12 * k}" text-anchor="{anchor}" '
             f'fill="{colour}" font-weight="600">{escape(name)}</text>'
         )
     return "".join(parts) + "</svg>"

@@ -28,7 +28,7 @@ from evaluation.suites import StrokeSuite
 from evaluation.table import Table
 from evaluation.textbook_pens import pens_table
 
-RISING, FALLING = GraphLayout(names_left=True), GraphLayout()
+RISING, FALLING = GraphLayout(names="top left"), GraphLayout(names="bottom left")
 MOST_PAGES = 3
 """Pages shown on which the motions of the readings differ."""
 
