@@ -137,7 +137,9 @@ def duel_table(fought: Sequence[Duel]) -> Table:
 
 def probability(p: float | None) -> str:
     """As papers print it."""
-    return "–" if p is None else f"{p:.3f}" if p >= 0.001 else f"{p:.1e}"
+    if p is None:
+        return "–"
+    return "< 1e-300" if p < 1e-300 else f"{p:.3f}" if p >= 0.001 else f"{p:.1e}"
 
 
 def plain(found: Sequence[Mark], fought: Sequence[Duel]) -> dict[str, Any]:
