@@ -6,8 +6,11 @@ people's ink is never fitted to.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
+from importlib import resources
 
 import numpy as np
 
@@ -16,13 +19,17 @@ import numpy as np
 class Curve:
     """log-odds = constant + share · log-odds of the best reading's share + signs · Σ log p + worst · log least p."""
 
-    constant: float = 0.5
-    share: float = 0.4
-    signs: float = 0.35
-    worst: float = 0.3
+    constant: float
+    share: float
+    signs: float
+    worst: float
 
 
-CURVE = Curve()
+@cache
+def shipped() -> Curve:
+    """The curve as fitted."""
+    text = resources.files("recognizer.handwriting").joinpath("weights/confidence.json").read_text("utf-8")
+    return Curve(**json.loads(text))
 
 
 def measures(share: float, chances: Sequence[float]) -> tuple[float, float, float]:
@@ -32,9 +39,10 @@ def measures(share: float, chances: Sequence[float]) -> tuple[float, float, floa
     return float(np.log(bounded / (1 - bounded))), float(logs.sum()), float(logs.min())
 
 
-def believed(share: float, chances: Sequence[float], curve: Curve = CURVE) -> float:
+def believed(share: float, chances: Sequence[float], curve: Curve | None = None) -> float:
     """The chance that the whole reading is right, 0 to 1; share: of its weight among all readings; chances: of
     its signs, each by itself."""
+    curve = curve or shipped()
     odds, total, least = measures(share, chances)
     value = curve.constant + curve.share * odds + curve.signs * total + curve.worst * least
     return float(1 / (1 + np.exp(-value)))

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from heapq import nlargest
-from math import exp, log
+from math import exp, inf, log
 
 import numpy as np
 
@@ -206,6 +206,8 @@ def _accented(items: Sequence[Item], scale: float) -> list[Item]:
     left = list(items)
     for item in items:
         mark = item.choices[0]
+        if item not in left:
+            continue
         if SIGNS[mark.sign] not in ACCENTS:
             continue
         below = [
@@ -278,41 +280,11 @@ def _beam(
         for at, choice in likely[0]
     ]
     extents = [[EXTENTS.index(extent(SIGNS[choice.sign])) for choice in item.choices] for item in items]
-    follow = language.rows
-    again = 0.25 * rule.again
     for child in range(1, len(items)):
-        found: list[tuple[float, _State, int, int, int]] = []
-        for state in states:
-            near = [tables.get((row.last, child)) for row in state.rows]
-            for at, choice in likely[child]:
-                sign, reach = choice.sign, extents[child][at]
-                rows = [
-                    _FAR if table is None else table.get((extents[row.last][row.chosen], reach), _FAR)
-                    for table, row in zip(near, state.rows, strict=True)
-                ]
-                none = sum(scores[NONE] for scores in rows)
-                known = sign in state.used
-                for number, (row, scores) in enumerate(zip(state.rows, rows, strict=True)):
-                    parent = items[row.last].choices[row.chosen].sign
-                    for relation in range(NONE):
-                        believed = scores[relation]
-                        if believed < -rule.far or row.scripts & relation:
-                            continue
-                        usual = follow[relation][parent][sign]
-                        if known:
-                            usual = log(exp(usual) + again)
-                        if relation == 0:
-                            if not row.scripts & 1:
-                                usual += rule.bare * follow[1][parent][END]
-                            if not row.scripts & 2:
-                                usual += rule.bare * follow[2][parent][END]
-                        gain = (
-                            choice.score
-                            + rule.relation * (none - scores[NONE] + believed)
-                            + rule.language * usual
-                        )
-                        found.append((state.score + gain, state, number, at, relation))
-        states = [_next(entry, child, items) for entry in nlargest(rule.width, found, key=_score)]
+        ways = _ways(child, states, items, likely[child], extents, tables, language, rule, -rule.far)
+        if not ways:  # nothing is near enough to hang on: on the likeliest, then
+            ways = _ways(child, states, items, likely[child], extents, tables, language, rule, -inf)
+        states = [_next(way, child, items) for way in nlargest(rule.width, ways, key=_score)]
     ranked = [Ranked(_row_of(state, items), state.score) for state in states]
     settled = [replace(one, score=one.score - rule.open * _unpaired(one.row)) for one in ranked]
     return nlargest(rule.kept, settled, key=lambda one: one.score)
@@ -326,6 +298,54 @@ Scores = tuple[float, float, float, float]
 
 def _score(entry: tuple[float, _State, int, int, int]) -> float:
     return entry[0]
+
+
+def _ways(
+    child: int,
+    states: Sequence[_State],
+    items: Sequence[Item],
+    likely: Sequence[tuple[int, Choice]],
+    extents: Sequence[Sequence[int]],
+    tables: dict[tuple[int, int], dict[tuple[int, int], Scores]],
+    language: Language,
+    rule: LayoutRule,
+    floor: float,
+) -> list[tuple[float, _State, int, int, int]]:
+    """Every way to go on from the states with the next item: score, state, open row, choice, relation."""
+    follow = language.rows
+    again = 0.25 * rule.again
+    found: list[tuple[float, _State, int, int, int]] = []
+    for state in states:
+        near = [tables.get((row.last, child)) for row in state.rows]
+        for at, choice in likely:
+            sign, reach = choice.sign, extents[child][at]
+            rows = [
+                _FAR if table is None else table.get((extents[row.last][row.chosen], reach), _FAR)
+                for table, row in zip(near, state.rows, strict=True)
+            ]
+            none = sum(scores[NONE] for scores in rows)
+            known = sign in state.used
+            for number, (row, scores) in enumerate(zip(state.rows, rows, strict=True)):
+                parent = items[row.last].choices[row.chosen].sign
+                for relation in range(NONE):
+                    believed = scores[relation]
+                    if believed < floor or row.scripts & relation:
+                        continue
+                    usual = follow[relation][parent][sign]
+                    if known:
+                        usual = log(exp(usual) + again)
+                    if relation == 0:
+                        if not row.scripts & 1:
+                            usual += rule.bare * follow[1][parent][END]
+                        if not row.scripts & 2:
+                            usual += rule.bare * follow[2][parent][END]
+                    gain = (
+                        choice.score
+                        + rule.relation * (none - scores[NONE] + believed)
+                        + rule.language * usual
+                    )
+                    found.append((state.score + gain, state, number, at, relation))
+    return found
 
 
 def _next(entry: tuple[float, _State, int, int, int], child: int, items: Sequence[Item]) -> _State:

@@ -103,7 +103,9 @@ def groups(line: Line, rule: GroupRule = RULE) -> list[Group]:
     for start in range(count):
         for end in range(start + 2, min(start + rule.word, count) + 1):
             group = tuple(range(start, end))
-            if (len(group) <= rule.strokes + 1 and near[start:end, start:end].any(axis=1).all()) or (beside[start:end, start:end].any(axis=1).all() and _in_a_row(line, group)):
+            if (len(group) <= rule.strokes + 1 and near[start:end, start:end].any(axis=1).all()) or (
+                beside[start:end, start:end].any(axis=1).all() and _in_a_row(line, group)
+            ):
                 found.add(group)
     for i, j in zip(*np.nonzero(np.triu(near, 2)), strict=True):
         found.add((int(i), int(j)))

@@ -42,7 +42,7 @@ class ReaderRule:
 
     choices: int = 6
     """Signs that a group is tried as."""
-    doubt: float = 1.5
+    doubt: float = 1.2
     """The net's opinions are softened by this temperature: people write otherwise than the generator."""
     strokes: int = 160
     """Strokes of the longest line that is read; a longer one is none, and is not read."""

@@ -1,6 +1,6 @@
 """`python -m training.handwriting`: remakes what the reader of mathematics knows from nothing but a seed.
 
-Writes signs.onnx, relations.onnx, language.npz, clouds.npz and card.json. Stopped, it goes on with what is in its
+Writes signs.onnx, relations.onnx, language.npz, clouds.npz, confidence.json and card.json. Stopped, it goes on with what is in its
 working folder when it is started again with the same options.
 """
 
@@ -10,7 +10,7 @@ import argparse
 import json
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
 from datetime import date
 from pathlib import Path
@@ -21,16 +21,21 @@ from rich.console import Console
 
 from data_gen.writing.grammars import mixed
 from recognizer.handwriting.cloud import drawing, packed, size
+from recognizer.handwriting.confidence import Curve
 from recognizer.handwriting.kernels import CHANNELS, IMAGES, NUMBERS, POINTS, SIDE
-from recognizer.handwriting.language import counted
+from recognizer.handwriting.language import counted, language
 from recognizer.handwriting.language import packed as packed_language
+from recognizer.handwriting.reader import Reader
+from recognizer.handwriting.relations import Relations
+from recognizer.handwriting.signs import NetSigns
 from sketch.ink import Ink
 from sketch.writing.signs import SIGNS
 from training.handwriting import relations
+from training.handwriting.calibrate import calibrate
 from training.handwriting.corpus import JUNK, Example, laid_out, shards
 from training.handwriting.export import exported, save
 from training.handwriting.fit import RULE, fit
-from training.progress import progress
+from training.progress import Tell, progress
 
 HERE = Path(__file__).parents[2] / "recognizer" / "handwriting" / "weights"
 SHARD = 1000
@@ -65,12 +70,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
         tell("relations", 1.0, "")
         (out / "clouds.npz").write_bytes(templates(corpus, options.seed))
+        rule = replace(RULE, epochs=options.epochs)
+        kept = f"signs-{options.seed}-{len(corpus)}-{options.epochs}"
+        first = fit(corpus, options.seed, rule, _telling(tell, "signs"), work / f"{kept}.pt")
+        second = replace(rule, rate=rule.again)
         net = fit(
-            corpus,
-            options.seed,
-            replace(RULE, epochs=options.epochs),
-            progress=lambda share, loss: tell("signs", share, f"loss {loss:.3f}"),
-            checkpoint=work / f"signs-{options.seed}-{len(corpus)}-{options.epochs}.pt",
+            corpus, options.seed + 1, second, _telling(tell, "signs again"), work / f"{kept}-again.pt", first
         )
         shown = {
             "sequence": torch.zeros(4, CHANNELS, POINTS),
@@ -78,6 +83,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
             "numbers": torch.zeros(4, NUMBERS),
         }
         save(exported(net, shown, "scores"), out / "signs.onnx")
+        curve, read = calibrate(_reader(out), options.judged, options.seed)
+        (out / "confidence.json").write_text(json.dumps(asdict(curve), indent=1) + "\n", "utf-8")
+        tell("confidence", 1.0, "")
     card = {
         "command": f"python -m training.handwriting --seed {options.seed} --lines {options.lines} --epochs {options.epochs}",
         "seed": options.seed,
@@ -86,12 +94,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "epochs": options.epochs,
         "rule": asdict(replace(RULE, epochs=options.epochs)),
         "parameters": sum(p.numel() for p in net.parameters()) + sum(p.numel() for p in related.parameters()),
+        "lines_of_hard_hands_read_right": round(read, 4),
         "minutes": round((time.monotonic() - begun) / 60, 1),
         "torch": torch.__version__,
         "date": date.today().isoformat(),
     }
     (out / "card.json").write_text(json.dumps(card, indent=1, ensure_ascii=False) + "\n", "utf-8")
     return 0
+
+
+def _telling(tell: Tell, stage: str) -> Callable[[float, float], None]:
+    return lambda share, loss: tell(stage, share, f"loss {loss:.3f}")
+
+
+def _reader(folder: Path) -> Reader:
+    """The reader with what was just trained. Its confidence is not asked for yet."""
+    kept = folder / "confidence.json"
+    if not kept.exists():
+        kept.write_text(json.dumps(asdict(Curve(0.0, 1.0, 1.0, 0.0))), "utf-8")
+    with np.load(folder / "language.npz") as tables:
+        usual = language(tables["follow"], tables["start"])
+    related = Relations((folder / "relations.onnx").read_bytes())
+    return Reader(NetSigns((folder / "signs.onnx").read_bytes()), related, usual)
 
 
 def templates(corpus: Sequence[Example], seed: int) -> bytes:
@@ -123,6 +147,7 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--sentences", type=int, default=20_000, help="expressions that the language is counted in"
     )
+    parser.add_argument("--judged", type=int, default=600, help="lines that confidence is fitted on")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument(
         "--work", default=".inklined-train/handwriting", help="where what is unfinished is kept"

@@ -21,10 +21,13 @@ class SignFitRule:
     """How the net of signs is trained."""
 
     epochs: int = 2
+    """Of each of two cycles."""
     lines: int = 32
     """Lines in a batch; each has some 20 groups."""
     rate: float = 3e-3
     """Peak of a one-cycle learning rate (Smith 2018), AdamW."""
+    again: float = 1.5e-3
+    """The peak of a second cycle, which goes on from the first."""
     decay: float = 1e-2
     smoothing: float = 0.02
     """Label smoothing: some signs are others by anybody's eye."""
@@ -41,10 +44,11 @@ def fit(
     rule: SignFitRule = RULE,
     progress: Callable[[float, float], None] = lambda _share, _loss: None,
     checkpoint: Path | None = None,
+    start: SignNet | None = None,
 ) -> SignNet:
-    """Trains on the lines. `progress` is told the share done and the running loss."""
+    """Trains on the lines, a new net or the one to start with. `progress` is told the share done and the running loss."""
     torch.manual_seed(seed)
-    net = SignNet().to(memory_format=torch.channels_last)
+    net = (start or SignNet()).to(memory_format=torch.channels_last)
     steps = rule.epochs * -(-len(corpus) // rule.lines)
     optimizer = torch.optim.AdamW(net.parameters(), lr=rule.rate, weight_decay=rule.decay)
     schedule = torch.optim.lr_scheduler.OneCycleLR(
@@ -63,8 +67,8 @@ def fit(
         torch.manual_seed(seed + epoch)
         net.train()
         order = rng.permutation(len(corpus))
-        for start in range(0, len(order), rule.lines):
-            inputs, target = batch([corpus[k] for k in order[start : start + rule.lines]], rng, rule)
+        for begin in range(0, len(order), rule.lines):
+            inputs, target = batch([corpus[k] for k in order[begin : begin + rule.lines]], rng, rule)
             loss = nn.functional.cross_entropy(net(*inputs), target, label_smoothing=rule.smoothing)
             optimizer.zero_grad(set_to_none=True)
             loss.backward()
