@@ -24,11 +24,12 @@ from sketch.ink import FloatArray, Ink, Stroke
 
 @dataclass(frozen=True, slots=True)
 class CloudRule:
-    temperature: float = 0.9
-    """Of distances, which are sums over 32 points of half the paper's weights."""
-    far: float = 6.0
-    """Distance from which a group is rather no sign."""
-    slope: float = 1.0
+    temperature: float = 0.12
+    """Of distances, which are sums over 32 points of half the paper's weights: a right sign that is not the nearest lies
+    0.1 to 0.4 behind it."""
+    far: float = 1.25
+    """Distance from which a group is rather no sign: nine tenths of signs lie nearer to a template."""
+    slope: float = 3.0
     """Log-odds of being no sign for each unit of distance beyond it."""
     unlike: float = 20.0
     """The distance of a sign that there is no template of."""

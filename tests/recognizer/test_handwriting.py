@@ -90,7 +90,9 @@ def test_erasing_and_rewriting_keeps_what_the_rest_was(reader: Reader) -> None:
     upper, lower = _written("F = m a", 2).ink, _written("x = 3", 3).ink
     drop = float(upper.bounds()[3] - upper.bounds()[1]) * 4
     strokes = dict(enumerate(upper))
-    strokes |= {100 + key: stroke.moved_to(stroke.points + np.array([0.0, drop])) for key, stroke in enumerate(lower)}
+    strokes |= {
+        100 + key: stroke.moved_to(stroke.points + np.array([0.0, drop])) for key, stroke in enumerate(lower)
+    }
     session = Session(reader).wrote(strokes)
     assert len(session.lines) == 2
     first, second = session.lines
