@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from recognizer.templates.kernel import kernel
+from recognizer.jit import kernel
 from sketch.ink import FloatArray
 
 Indices = NDArray[np.int64]
