@@ -12,7 +12,7 @@ import argparse
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from datetime import date
 from pathlib import Path
@@ -24,7 +24,7 @@ from data_gen.problems import ANSWERS, PROBLEMS, problem
 from data_gen.writers import sample_writer
 from data_gen.writing.grammars import general, mixed, physics
 from data_gen.writing.typeset import habits, written
-from evaluation.handwriting import confusions, read_all, scores
+from evaluation.handwriting import Read, confusions, read_all, scores
 from evaluation.handwritten_pages import judge_all, reads
 from physics.formula.expected import expected
 from recognizer.handwriting.line import line_of, spaced
@@ -168,7 +168,7 @@ def pages(reader: Reader, count: int) -> None:
             )
 
 
-def report(name: str, found) -> None:
+def report(name: str, found: Sequence[Read]) -> None:
     got = asdict(scores(found))
     print(f"{name}:")
     for key, value in got.items():

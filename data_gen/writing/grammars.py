@@ -156,7 +156,7 @@ def _product(author: _Author, depth: int) -> Row:
     count = author.count(RULE.factors)
     for k in range(count):
         factor = _factor(author, depth, first=k == 0)
-        if k and (row[-1].name.isdigit() and factor[0].name.isdigit()):
+        if row and (row[-1].name.isdigit() and factor[0].name.isdigit()):
             row = (*row, Node(author.pick(["\\times", "\\cdot"])))
         elif k and author.chance(0.08):
             row = (*row, Node(author.pick(["\\times", "\\cdot", "."], [0.6, 0.3, 0.1])))

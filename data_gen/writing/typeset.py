@@ -196,10 +196,10 @@ def _numbered(row: Row, nodes: list[str]) -> tuple[Row, list[str]]:
         if accent is not None:
             accent = replace(accent, strokes=(len(nodes),))
             nodes.append(accent.name)
-        parts = [
+        sub, sup, over, under, inside = (
             _numbered(part, nodes)[0] for part in (node.sub, node.sup, node.over, node.under, node.inside)
-        ]
-        found.append(Node(node.name, (number,), *parts, accent))
+        )
+        found.append(Node(node.name, (number,), sub, sup, over, under, inside, accent))
     return tuple(found), nodes
 
 
@@ -211,8 +211,12 @@ def _inked(row: Row, strokes: Sequence[Sequence[int]]) -> Row:
         Node(
             node.name,
             own(node),
-            *(_inked(part, strokes) for part in (node.sub, node.sup, node.over, node.under, node.inside)),
-            None if node.accent is None else replace(node.accent, strokes=own(node.accent)),
+            sub=_inked(node.sub, strokes),
+            sup=_inked(node.sup, strokes),
+            over=_inked(node.over, strokes),
+            under=_inked(node.under, strokes),
+            inside=_inked(node.inside, strokes),
+            accent=None if node.accent is None else replace(node.accent, strokes=own(node.accent)),
         )
         for node in row
     )

@@ -124,7 +124,8 @@ def _drawn(
 ) -> None:
     """Draws the group with its middle at the image's, `scale` pixels to the page unit."""
     for k in range(len(group)):
-        _stroke(points, 0 if group[k] == 0 else ends[group[k] - 1], ends[group[k]], x, y, scale, image)
+        start = 0 if group[k] == 0 else int(ends[group[k] - 1])
+        _stroke(points, start, int(ends[group[k]]), x, y, scale, image)
 
 
 @kernel

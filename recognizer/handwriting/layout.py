@@ -114,6 +114,7 @@ def _contained(
         holds = {choice.sign: choice for choice in item.choices if choice.score > best + np.log(rule.bar)}
         others = [other for other in left if other is not item]
         made: Item | None = None
+        taken: list[Item] = []
         if NUMBER[FRACTION] in holds:
             made, taken = _fraction(item, holds[NUMBER[FRACTION]], others, scale, inner, rule)
         if made is None and NUMBER[ROOT] in holds:

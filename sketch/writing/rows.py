@@ -96,7 +96,7 @@ def sign_named(label: str) -> str:
 
 def row_of(text: str) -> Row:
     """The row that the LaTeX stands for. Raises RowError where braces or scripts do not fit."""
-    found = [_SYNONYMS.get(token, token) for token in _TOKEN.findall(text)]
+    found = [sign_named(token.group()) for token in _TOKEN.finditer(text)]
     reader = _Reader([token for token in found if token not in _SILENT])
     row = reader.row()
     if reader.rest:

@@ -48,7 +48,8 @@ def fit(
 ) -> SignNet:
     """Trains on the lines, a new net or the one to start with. `progress` is told the share done and the running loss."""
     torch.manual_seed(seed)
-    net = (start or SignNet()).to(memory_format=torch.channels_last)
+    net = start or SignNet()
+    net.to(memory_format=torch.channels_last)  # pyright: ignore[reportCallIssue, reportArgumentType]
     steps = rule.epochs * -(-len(corpus) // rule.lines)
     optimizer = torch.optim.AdamW(net.parameters(), lr=rule.rate, weight_decay=rule.decay)
     schedule = torch.optim.lr_scheduler.OneCycleLR(

@@ -135,7 +135,7 @@ def _place(node: Node, line: Line) -> Place:
     if node.name == FRACTION:
         own = box_of(line, node.strokes)
         axis = 0.5 * float(own[1] + own[3])
-    return place(box, axis)
+    return place(box.tolist(), axis)
 
 
 def fit(examples: Sequence[Example], seed: int, rule: RelationFitRule = RULE) -> RelationNet:
