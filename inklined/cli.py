@@ -20,6 +20,7 @@ from inklined.commands import (
     data,
     evaluate,
     generate,
+    mathematics,
     observe,
     problems,
     reading,
@@ -64,6 +65,7 @@ reproduce.register(app)
 evaluate.register(app)
 check_recognizer.register(app)
 reading.register(app)
+mathematics.register(app)
 observe.register(app)
 generate.register(app)
 problems.register(app)

@@ -8,8 +8,9 @@ y down; sizes are compared with the page and with each other.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
@@ -19,20 +20,37 @@ from recognizer.erase import erased, without_object
 from recognizer.group import boxes_of, letter_height, lines
 from recognizer.parts import Part, among_letters, arrows, links, shapes
 from sketch.formula.parse import expression
-from sketch.ink import FloatArray, Ink
+from sketch.ink import FloatArray, Ink, Stroke
 from sketch.page import Association, Component, Expression, Gesture, Sketch, StrokeKind, label
 from sketch.shapes import COMPONENT_KINDS, Circle, Point, Polygon, outline
 
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """A typed formula: where it stands on the page (None: nowhere in particular) and the spot on a
-    component it was associated with (None: it holds for the whole page), page units. A formula
-    associated with several components is several notes of one text at one place."""
+    """A formula: as it was typed (None: what stands there in ink is read), where it stands on the page (None:
+    nowhere in particular) and the spot on a component it was associated with (None: it holds for the whole
+    page), page units. A formula associated with several components is several notes of one text at one place."""
 
-    text: str
+    text: str | None
     at: Point | None = None
     anchor: Point | None = None
+
+
+class Written(Protocol):
+    """A line as it was read: in the formula language, the chance that all of it is right, other readings."""
+
+    @property
+    def text(self) -> str: ...
+
+    @property
+    def confidence(self) -> float: ...
+
+    @property
+    def alternatives(self) -> tuple[tuple[str, float], ...]: ...
+
+
+Mathematics = Callable[[Sequence[Stroke]], Written]
+"""Reads the strokes of one line of handwriting, in drawing order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,8 +73,11 @@ DRAWN_KINDS: tuple[StrokeKind, ...] = (*COMPONENT_KINDS, "math")
 """What a stroke can be that is no gesture."""
 
 
-def interpret(ink: Ink, recognizer: Recognizer, notes: Sequence[Note] = ()) -> Sketch:
-    """The page as the recognizer reads it, with typed formulas beside what was drawn.
+def interpret(
+    ink: Ink, recognizer: Recognizer, notes: Sequence[Note] = (), mathematics: Mathematics | None = None
+) -> Sketch:
+    """The page as the recognizer reads it, with typed formulas beside what was drawn. mathematics: who reads
+    the lines that nobody typed; without one they stay unread.
 
     Strokes that the recognizer rejects, and erased ones, belong to nobody. Components are labelled A,
     B … in reading order; a shape's start and end stay where the pen put them.
@@ -75,7 +96,9 @@ def interpret(ink: Ink, recognizer: Recognizer, notes: Sequence[Note] = ()) -> S
     taps = [index for index, kind in enumerate(kinds) if kind == "tap"]
     tapped, points = _tapped(ink, taps, solids, writing)
     components = _labelled(solids, held, marks, [tapped.get(tap) for tap in taps])
-    expressions, associations = _written(ink, lines(ink, sorted([*writing, *points])), notes, components)
+    expressions, associations = _written(
+        ink, lines(ink, sorted([*writing, *points])), notes, components, mathematics
+    )
     gestures = [Gesture("tap", tap) for tap in taps if tap not in points]
     for index, kind in enumerate(kinds):
         if kind == "scribble" or kind == "lasso":
@@ -190,7 +213,11 @@ def reading_order(centres: FloatArray, rule: InterpretRule = RULE) -> list[int]:
 
 
 def _written(
-    ink: Ink, found: Sequence[tuple[int, ...]], notes: Sequence[Note], components: Sequence[Component]
+    ink: Ink,
+    found: Sequence[tuple[int, ...]],
+    notes: Sequence[Note],
+    components: Sequence[Component],
+    mathematics: Mathematics | None,
 ) -> tuple[tuple[Expression, ...], tuple[Association, ...]]:
     """The notes as expressions, each with the line of ink it stands at, then the lines that nobody has
     read; and what the notes' anchors associate them with."""
@@ -200,20 +227,38 @@ def _written(
     free = set(range(len(found)))
     expressions: list[Expression] = []
     associations: list[Association] = []
-    numbers: dict[tuple[str, Point | None], int] = {}
+    numbers: dict[tuple[str | None, Point | None], int] = {}
     for note in notes:
         key = (note.text, note.at)
         if key not in numbers:
             numbers[key] = len(expressions)
             line = _line_at(boxes, free, note.at, reach)
             free.discard(-1 if line is None else line)
-            expressions.append(expression(note.text, () if line is None else found[line], note.at))
+            owned = () if line is None else found[line]
+            if note.text is None:
+                expressions.append(_read_line(ink, owned, note.at, mathematics))
+            else:
+                expressions.append(expression(note.text, owned, note.at))
         if note.anchor is not None and (meant := anchored(components, note.anchor)) is not None:
             associations.append(Association(numbers[key], meant.label, note.anchor))
     for line in sorted(free):
         left, top, right, bottom = boxes[line].tolist()
-        expressions.append(Expression(None, found[line], ((left + right) / 2, (top + bottom) / 2)))
+        middle = ((left + right) / 2, (top + bottom) / 2)
+        expressions.append(_read_line(ink, found[line], middle, mathematics))
     return tuple(expressions), tuple(associations)
+
+
+def _read_line(
+    ink: Ink, strokes: tuple[int, ...], at: Point | None, mathematics: Mathematics | None
+) -> Expression:
+    """A line of handwriting as it is read; without text where nobody reads it or there is nothing to read."""
+    if mathematics is None or not strokes:
+        return Expression(None, strokes, at)
+    read = mathematics([ink[index] for index in strokes])
+    if not read.text:
+        return Expression(None, strokes, at, confidence=read.confidence)
+    others = tuple(text for text, _ in read.alternatives)
+    return replace(expression(read.text, strokes, at), confidence=read.confidence, alternatives=others)
 
 
 def _line_at(boxes: FloatArray, free: set[int], at: Point | None, reach: float) -> int | None:

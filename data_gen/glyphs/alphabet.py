@@ -48,6 +48,21 @@ def strokes(symbol: str, variant: int = 0) -> tuple[FloatArray, ...]:
     return ways[variant % len(ways)]
 
 
+_ALIKE = {"\\vec": "\\rightarrow", "\\hat": "\\hat"}
+"""Signs of mathematics whose glyphs stand under another name."""
+
+
+@cache
+def styles(sign: str) -> tuple[tuple[FloatArray, ...], ...]:
+    """All ways of writing a sign of mathematics (`sketch.writing.signs`), those of `symbols()` and further ones,
+    each its strokes, (n, 2). Raises KeyError when it cannot be written."""
+    name = _ALIKE.get(sign, sign)
+    ways = (*_parsed("handwriting.json").get(name, ()), *_parsed("allographs.json").get(name, ()))
+    if not ways:
+        raise KeyError(f"no glyph for {sign!r}")
+    return ways
+
+
 def _ways(symbol: str) -> tuple[tuple[FloatArray, ...], ...]:
     for file in ("allographs.json", "marks.json"):
         if symbol in _parsed(file):

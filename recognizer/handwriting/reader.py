@@ -1,0 +1,215 @@
+"""Handwritten mathematics read: strokes of one line to a row of signs, with its confidence and other readings.
+
+    reading = Reader().read(strokes)
+    print(reading.latex, reading.confidence, reading.tree)
+
+What the page's physics expects comes in as a prior, a function that weighs a reading: it re-orders
+readings and vetoes none. Frame: page units, y down.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from heapq import nlargest
+from typing import Any
+
+import numpy as np
+
+from recognizer.handwriting import language, relations, signs
+from recognizer.handwriting.confidence import believed
+from recognizer.handwriting.language import Language
+from recognizer.handwriting.layout import RULE as LAYOUT
+from recognizer.handwriting.layout import Choice, Item, LayoutRule, arranged
+from recognizer.handwriting.line import Group, Line, box_of, groups, line_of, spaced
+from recognizer.handwriting.relations import Relations, place
+from recognizer.handwriting.segment import Covering, coverings
+from recognizer.handwriting.signs import COUNT, SignReader
+from sketch.formula.lexer import FormulaError
+from sketch.formula.mathml import mathml
+from sketch.formula.parse import parse
+from sketch.ink import FloatArray, Stroke
+from sketch.writing.rows import Node, Row, formula, latex, nodes_of
+from sketch.writing.signs import FUNCTIONS, SIGNS
+
+Prior = Callable[[Row], float]
+"""The logarithm of how much a page speaks for a reading: 0 where it says nothing, less where it speaks against."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReaderRule:
+    """How a line is read."""
+
+    choices: int = 6
+    """Signs that a group is tried as."""
+    doubt: float = 1.2
+    """The net's opinions are softened by this temperature: people write otherwise than the generator."""
+    strokes: int = 160
+    """Strokes of the longest line that is read; a longer one is none, and is not read."""
+    readings: int = 5
+    prior_most: float = 4.0
+    """A prior moves a reading by this at most, so that clear ink is always stronger."""
+
+
+RULE = ReaderRule()
+
+
+@dataclass(frozen=True, slots=True)
+class Symbol:
+    """A sign as read: its strokes (positions in the line), its box (left, top, right, bottom) and its own chance."""
+
+    name: str
+    strokes: tuple[int, ...]
+    box: tuple[float, float, float, float]
+    confidence: float
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """What a line says.
+
+    row: the signs as they lie; latex: canonical; confidence: the calibrated chance that all of it is right;
+    alternatives: other readings in LaTeX with their chances, the best first.
+    """
+
+    row: Row
+    latex: str
+    confidence: float
+    symbols: tuple[Symbol, ...]
+    alternatives: tuple[tuple[str, float], ...] = ()
+
+    @property
+    def text(self) -> str:
+        """The line in the formula language."""
+        return formula(self.row)
+
+    @property
+    def tree(self) -> Any:
+        """Its SymPy tree, None where it is no formula."""
+        try:
+            return parse(self.text)
+        except FormulaError:
+            return None
+
+    @property
+    def mathml(self) -> str | None:
+        """Its MathML, None where it is no formula."""
+        tree = self.tree
+        return None if tree is None else mathml(tree)
+
+
+NOTHING = Reading((), "", 0.0, ())
+
+
+class Reader:
+    """Reads lines. signs: who tells signs; the rest is the same for all."""
+
+    def __init__(
+        self,
+        sign_reader: SignReader | None = None,
+        relation_net: Relations | None = None,
+        usual: Language | None = None,
+        rule: ReaderRule = RULE,
+        layout: LayoutRule = LAYOUT,
+    ) -> None:
+        self.signs = sign_reader or signs.shipped()
+        self.relations = relation_net or relations.shipped()
+        self.language = usual or language.shipped()
+        self.rule = rule
+        self.layout = layout
+
+    @property
+    def name(self) -> str:
+        return self.signs.name
+
+    def read(self, strokes: Sequence[Stroke], prior: Prior | None = None) -> Reading:
+        """The reading of one line's strokes in drawing order."""
+        if not strokes or len(strokes) > self.rule.strokes:
+            return NOTHING
+        line = line_of([spaced(stroke) for stroke in strokes])
+        candidates = groups(line)
+        return self.settled(line, candidates, self.signs.scores(line, candidates), prior)
+
+    def settled(
+        self, line: Line, candidates: Sequence[Group], scores: FloatArray, prior: Prior | None = None
+    ) -> Reading:
+        """The reading of a line whose groups have been looked at: scores (groups, signs + 1)."""
+        scores = softened(scores, self.rule.doubt)
+        ways = coverings(len(line), candidates, scores)
+        found: dict[str, tuple[float, Row, Covering]] = {}
+        for way in ways:
+            items = [self._item(line, candidates[position], scores[position]) for position in way.groups]
+            for ranked in arranged(items, line.scale, self.relations, self.language, rule=self.layout):
+                row = named(ranked.row)
+                total = ranked.score + way.score
+                if prior is not None:
+                    total += max(prior(row), -self.rule.prior_most)
+                text = latex(row)
+                if text not in found or found[text][0] < total:
+                    found[text] = (total, row, way)
+        best = nlargest(self.rule.readings, found.items(), key=lambda entry: entry[1][0])
+        weights = np.array([entry[1][0] for entry in best])
+        shares = np.exp(weights - np.logaddexp.reduce(weights))
+        text, (_, row, way) = best[0]
+        symbols = self._symbols(line, row, candidates, scores, way)
+        confidence = believed(float(shares[0]), [symbol.confidence for symbol in symbols])
+        others = tuple(
+            (other, float(share) / float(shares[0]) * confidence)
+            for (other, _), share in zip(best[1:], shares[1:], strict=True)
+        )
+        return Reading(row, text, confidence, symbols, others)
+
+    def _item(self, line: Line, group: Group, scores: FloatArray) -> Item:
+        order = np.argsort(-scores[:COUNT], kind="stable")[: self.rule.choices]
+        real = float(np.logaddexp.reduce(scores[:COUNT]))
+        choices = tuple(Choice(int(k), float(scores[k]) - real, Node(SIGNS[k], group)) for k in order)
+        return Item(place(box_of(line, group).tolist()), choices, group)
+
+    def _symbols(
+        self, line: Line, row: Row, candidates: Sequence[Group], scores: FloatArray, way: Covering
+    ) -> tuple[Symbol, ...]:
+        chance = {candidates[position]: scores[position] for position in way.groups}
+        found: list[Symbol] = []
+        for node in nodes_of(row):
+            own = chance.get(node.strokes)
+            sure = (
+                0.5 if own is None or node.name not in SIGNS else float(np.exp(own[SIGNS.index(node.name)]))
+            )
+            left, top, right, bottom = box_of(line, node.strokes).tolist()
+            found.append(Symbol(node.name, node.strokes, (left, top, right, bottom), sure))
+        return tuple(found)
+
+
+def softened(scores: FloatArray, temperature: float) -> FloatArray:
+    """Log probabilities at a temperature, normalised again."""
+    soft = scores / temperature
+    return soft - np.logaddexp.reduce(soft, axis=1, keepdims=True)
+
+
+_SPELT = sorted(((name[1:], name) for name in FUNCTIONS), key=lambda pair: -len(pair[0]))
+
+
+def named(row: Row) -> Row:
+    """The row with functions that were read letter by letter as one sign each."""
+    nodes = [
+        replace(
+            node,
+            sub=named(node.sub),
+            sup=named(node.sup),
+            over=named(node.over),
+            under=named(node.under),
+            inside=named(node.inside),
+        )
+        for node in row
+    ]
+    at = 0
+    while at < len(nodes):
+        for letters, name in _SPELT:
+            run = nodes[at : at + len(letters)]
+            spelt = [node.name for node in run] == list(letters)
+            if spelt and all(not (node.sub or node.sup or node.accent) for node in run[:-1]):
+                strokes = tuple(sorted(stroke for node in run for stroke in node.strokes))
+                nodes[at : at + len(letters)] = [replace(run[-1], name=name, strokes=strokes)]
+                break
+        at += 1
+    return tuple(nodes)
