@@ -192,4 +192,5 @@ def test_people_s_expressions_are_read_as_well_as_before(reader: Reader) -> None
     assert found.symbol_accuracy >= REAL_FLOOR[1]
 
 
-REAL_FLOOR = (0.0, 0.0)
+REAL_FLOOR = (0.27, 0.77)
+"""A little below what was measured: 29.0 % of expressions, 79.1 % of signs."""
