@@ -11,11 +11,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
 
+from physics.formula.expected import expected
 from recognizer.claims import Recognizer
+from recognizer.handwriting.roster import reader_of
 from recognizer.interpret import Note, interpret
 from recognizer.roster import ROSTER, recognizer
 from sketch.files import document
-from sketch.formula.parse import expression
+from sketch.formula.lexer import FormulaError
+from sketch.formula.parse import expression, parse
+from sketch.formula.print import plain
 from sketch.ink import Ink
 from sketch.page import Association, Component, Expression, Sketch, label
 from studio.actions import Read
@@ -24,6 +28,8 @@ from studio.limits import Refused
 
 READER = "learned"
 """Who reads a page when nobody else is named."""
+SURE = 0.5
+"""Readings of handwriting that are less likely to be right are asked of the person instead."""
 GESTURES = "geometric"
 """Who tells gestures from drawing as they are made: the quickest."""
 
@@ -42,12 +48,27 @@ HandReader = Callable[[Ink], Reading | None]
 """Reads the strokes of one line; None where it would rather not say, and the person types."""
 
 
-def unread(line: Ink) -> Reading | None:  # noqa: ARG001 - the signature is the seam
-    """Nobody reads handwriting: every line is asked of the person, beside its ink."""
-    return None
+def handwriting(line: Ink) -> Reading | None:
+    """What a line of ink says, in the way that people type it, where it is likelier right than not and a formula."""
+    said = reader_of("net").read(line.strokes, prior=expected)
+    if said.confidence < SURE:
+        return None
+    texts = [_typed(text) for text in (said.text, *(latex for latex, _ in said.alternatives))]
+    if texts[0] is None:
+        return None
+    others = dict.fromkeys(text for text in texts[1:] if text is not None and text != texts[0])
+    return Reading(texts[0], said.confidence, tuple(others))
 
 
-HAND_READER: HandReader = unread
+def _typed(text: str) -> str | None:
+    """A formula as it is typed; None for what is none."""
+    try:
+        return plain(parse(text))
+    except FormulaError:
+        return None
+
+
+HAND_READER: HandReader = handwriting
 """The seam for a reader of handwriting: the function that every unread line of ink is given to."""
 
 

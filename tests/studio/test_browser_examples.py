@@ -1,5 +1,5 @@
-"""The two worked examples in a real browser (rows E6 and E7), from a blank page by a pen's strokes alone but for the
-formulas, which are typed beside their ink; then a wrong answer, and what the page says about it."""
+"""The two worked examples in a real browser (rows E6 and E7), from a blank page by a pen's strokes: once with what was
+written corrected by hand, then with a wrong answer and what the page says about it; once by ink alone."""
 
 from __future__ import annotations
 
@@ -9,10 +9,13 @@ from io import BytesIO
 from pathlib import Path
 
 import numpy as np
+import pytest
 from PIL import Image
 from playwright.sync_api import Page
 
 from data_gen.pages import page as generated
+from sketch.formula.parse import parse
+from sketch.formula.print import plain as as_typed
 from sketch.page import Sketch
 from studio_workshop import Pen, loop, plain
 
@@ -47,8 +50,8 @@ def film(tab: Page, name: str, until: float, count: int = 20) -> None:
     )
 
 
-def drawn_and_read(tab: Page, pen: Pen, truth: Sketch) -> None:
-    """Draws everything, analyzes, and types what each line says."""
+def drawn(tab: Page, pen: Pen, truth: Sketch) -> None:
+    """Draws everything and analyzes it."""
     for stroke in truth.ink:
         pen.draw(stroke)
     pen.settled()
@@ -57,15 +60,20 @@ def drawn_and_read(tab: Page, pen: Pen, truth: Sketch) -> None:
     )
     tab.click("#analyze")
     tab.wait_for_function("inklined.page.state.components.length > 0")
-    for number, line in enumerate(truth.expressions):
+
+
+def drawn_and_read(tab: Page, pen: Pen, truth: Sketch) -> None:
+    """Draws everything, analyzes, and types what each line says, whatever was read."""
+    drawn(tab, pen, truth)
+    for line in truth.expressions:
         box = truth.ink.points_of(line.strokes)
-        chip = tab.evaluate(
+        number, *chip = tab.evaluate(
             """([x, y]) => {
-                const lines = inklined.page.state.lines.filter(line => line.text === null);
+                const lines = inklined.page.state.lines.slice();
                 const away = line => { const b = inklined.page.lineBox(line); return Math.hypot((b.left + b.right) / 2 - x, (b.top + b.bottom) / 2 - y); };
                 const nearest = lines.sort((a, b) => away(a) - away(b))[0].line;
                 const r = document.querySelector(`[data-line="${nearest}"]`).getBoundingClientRect();
-                return [r.left + r.width / 2, r.top + r.height / 2];
+                return [nearest, r.left + r.width / 2, r.top + r.height / 2];
             }""",
             ((box.min(axis=0) + box.max(axis=0)) / 2).tolist(),
         )
@@ -73,7 +81,8 @@ def drawn_and_read(tab: Page, pen: Pen, truth: Sketch) -> None:
         tab.fill(".formula-text", line.text)
         tab.press(".formula-text", "Enter")
         tab.wait_for_function(
-            "n => inklined.page.state.lines.filter(line => line.text !== null).length === n", arg=number + 1
+            "([n, text]) => inklined.page.state.lines.find(line => line.line === n).text === text",
+            arg=[number, line.text],
         )
 
 
@@ -149,3 +158,21 @@ def test_e7_a_box_on_two_wires_stays_and_a_wrong_tension_breaks_a_wire(
     assert "break" in tab.evaluate("inklined.scene.run.events.map(event => event.kind)")
     tab.evaluate("inklined.player.pause(); inklined.player.seek(0.5)")
     picture(tab, "e7-breaks")
+
+
+@pytest.mark.parametrize(
+    ("diagram", "writer", "happens"), [("incline-and-ball", 3, "rolls"), ("box-on-two-wires", 0, "stays")]
+)
+def test_e6_and_e7_by_ink_alone(
+    new_page: Callable[[], str], opened, diagram: str, writer: int, happens: str
+) -> None:
+    truth = generated(diagram, 7, writer, "right").truth
+    tab, pen = opened(new_page())
+    drawn(tab, pen, truth)
+    read = tab.evaluate("inklined.page.state.lines.map(line => line.text)")
+    assert sorted(as_typed(parse(text)) for text in read) == sorted(
+        as_typed(parse(line.text)) for line in truth.expressions if line.text
+    )
+    said_of(tab, pen, truth)
+    assert happens in ran(tab)
+    picture(tab, f"{diagram}-by-ink-alone")
