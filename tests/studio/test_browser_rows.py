@@ -241,9 +241,10 @@ def test_a_page_is_saved_and_opened_as_a_file_and_the_contest_shows_four_reading
     file = tmp_path / "page.inklined"
     saved.value.save_as(file)
     assert len(document.read(file).components) == 2
-    was = tab.url
+    was = tab.evaluate("inklined.page.state.page")
     tab.set_input_files("input[type=file]", str(file))
-    tab.wait_for_function("was => location.href !== was", arg=was)
+    # The address changes first; the page is another one when its first state has come.
+    tab.wait_for_function("was => inklined.page.state.page !== was", arg=was)
     tab.wait_for_function("inklined.page.state.components.length === 2")
     tab.keyboard.press("c")
     tab.wait_for_function("document.querySelectorAll('.pane').length === 4")
