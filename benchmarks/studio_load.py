@@ -39,7 +39,8 @@ def main() -> None:
             time.sleep(1)
         figures["clients"] = _crowd(studio, options.clients)
         figures["bad messages"] = _bad(studio, options.bad)
-    figures["kills"] = _kills(options.kills)
+    if options.kills:
+        figures["kills"] = _kills(options.kills)
     print(json.dumps(figures, indent=1))
     if options.json:
         options.json.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
