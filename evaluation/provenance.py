@@ -11,7 +11,7 @@ import platform
 from collections.abc import Sequence
 from datetime import datetime
 from importlib.metadata import version
-from typing import Any
+from typing import Any, cast
 
 from evaluation.contest import Contest
 
@@ -41,29 +41,28 @@ def machine() -> str:
 
 def without_timings(figures: Any) -> Any:
     """The figures but for what may differ from run to run."""
-    match figures:
-        case dict():
-            return {key: without_timings(value) for key, value in figures.items() if key not in TIMINGS}  # type: ignore[misc]
-        case list():
-            return [without_timings(value) for value in figures]  # type: ignore[misc]
-        case _:
-            return figures
+    if isinstance(figures, dict):
+        named = cast("dict[str, Any]", figures)
+        return {key: without_timings(value) for key, value in named.items() if key not in TIMINGS}
+    if isinstance(figures, list):
+        return [without_timings(value) for value in cast("list[Any]", figures)]
+    return figures
 
 
 def differences(first: Any, second: Any, place: str = "") -> list[str]:
     """Where two figures differ, by their places; nothing when all is the same to the last digit."""
     if isinstance(first, dict) and isinstance(second, dict):
+        one, other = cast("dict[str, Any]", first), cast("dict[str, Any]", second)
         return [
             line
-            for key in dict.fromkeys((*first, *second))  # type: ignore[misc]
-            for line in differences(first.get(key), second.get(key), f"{place}.{key}".lstrip("."))  # type: ignore[misc]
+            for key in dict.fromkeys((*one, *other))
+            for line in differences(one.get(key), other.get(key), f"{place}.{key}".lstrip("."))
         ]
-    if isinstance(first, list) and isinstance(second, list) and len(first) == len(second):  # type: ignore[arg-type]
-        return [
-            line
-            for k, (one, other) in enumerate(zip(first, second, strict=True))  # type: ignore[arg-type]
-            for line in differences(one, other, f"{place}[{k}]")
-        ]
+    if isinstance(first, list) and isinstance(second, list):
+        here, there = cast("list[Any]", first), cast("list[Any]", second)
+        if len(here) == len(there):
+            pairs = enumerate(zip(here, there, strict=True))
+            return [line for k, (a, b) in pairs for line in differences(a, b, f"{place}[{k}]")]
     if json.dumps(first, sort_keys=True) == json.dumps(second, sort_keys=True):
         return []
     return [f"{place}: {_shown(first)}, then {_shown(second)}"]

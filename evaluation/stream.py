@@ -138,7 +138,7 @@ def on_cluster(address: str) -> Engine:
     """The workers of the Dask cluster whose scheduler is at that address (the extra `cluster`). A shard whose worker is lost is
     worked on by another. Raises ValueError when Dask is not installed, OSError when nobody answers there."""
     try:
-        from distributed import Client, as_completed  # type: ignore[import-untyped]
+        from distributed import Client, as_completed
     except ImportError:
         raise ValueError("--cluster needs Dask; pip install 'inklined[cluster]' adds it") from None
 

@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 from physics.rectify import Key
-from physics.rectify.correction import Place, carried
+from physics.rectify.correction import carried
 from sketch.edit import without_component, without_line
 from sketch.geometry import contains
 from sketch.ink import Ink, Stroke
@@ -165,9 +165,10 @@ def _carried(part: Component, labels: Collection[str], dx: float, dy: float) -> 
         return replace(part, shape=carried(part.shape, place))
     shape = part.shape
     if isinstance(shape, Spring | Wire) and any(end in labels for end in part.ends if end is not None):
-        stay: Place = lambda point: point  # noqa: E731
-        ways = [place if end in labels else stay for end in part.ends]
-        start, end = ways[0](shape.start), ways[1](shape.end)
+        start, end = (
+            place(point) if label in labels else point
+            for label, point in zip(part.ends, (shape.start, shape.end), strict=True)
+        )
         if start != end:
             return replace(part, shape=replace(shape, start=start, end=end))
     return part

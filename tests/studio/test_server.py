@@ -174,7 +174,7 @@ def test_another_site_another_name_and_too_large_a_page_are_refused(studio: Serv
     with (
         pytest.raises(InvalidStatus, match="403"),
         connect(f"{studio.url.replace('http', 'ws')}/ws/{page}", origin="https://evil.example"),
-    ):  # type: ignore[arg-type]
+    ):
         pass
     bare = http.client.HTTPConnection("127.0.0.1", studio.port, timeout=PATIENCE)
     bare.request("GET", "/api/pages", headers={"Host": "rebound.example"})
