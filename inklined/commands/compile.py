@@ -28,12 +28,12 @@ def compile_all() -> None:
 
     # The long ones first: the short ones fill the gaps.
     jobs: dict[str, Callable[[], None]] = {
-        "the ink generator": _pen,
         "the exact engine": _exact,
-        "the geometric recognizer": _geometric,
+        "the ink generator": _pen,
         "the engine for crowds": _robust,
+        "the geometric recognizer": _geometric,
     }
-    err.print(f"Compiling {', '.join(jobs)} for this machine: once, for about a minute.", style="dim")
+    err.print(f"Compiling {', '.join(jobs)} for this machine: once, for a minute or two.", style="dim")
     with progress() as tell:
         done = Parallel(n_jobs=-1, return_as="generator_unordered")(
             delayed(_quietly)(job) for job in jobs.values()
@@ -56,7 +56,7 @@ def _pen() -> None:
 
     items(100, seed=1)
     doodles(5, seed=1)
-    list(pages(3, seed=1, cluttered=True))
+    list(pages(6, seed=1, cluttered=True))
 
 
 def _geometric() -> None:
@@ -95,7 +95,7 @@ def _robust() -> None:
 
 
 def _move(mode: Mode) -> None:
-    """A ball that falls on a floor, a box drawn into it, a bob on a wire, a load on a spring, a push by a formula:
+    """A ball that falls on a floor and rolls against a box drawn into it, a bob on a wire, a load on a spring, a push by a formula:
     bodies that meet, and bodies that do not."""
     import numpy as np
     from sympy import Symbol
@@ -122,7 +122,7 @@ def _move(mode: Mode) -> None:
     round_ = disc_inertia(1.0, 0.2)
     bodies = (
         Body("floor", Block(plank), (0.0, -0.5), 1.0, block_inertia(1.0, plank), fixed=True, material=rough),
-        Body("ball", Disc(0.2), (0.0, 0.3), 1.0, round_, velocity=(1.0, 0.0, 0.0), material=rough),
+        Body("ball", Disc(0.2), (0.0, 0.3), 1.0, round_, velocity=(3.0, 0.0, 0.0), material=rough),
         Body("box", Block(square), (1.5, 0.29), 1.0, block_inertia(1.0, square), 0.01, material=rough),
         Body("bob", Disc(0.2), (-3.0, 2.0), 1.0, round_),
         Body("load", Disc(0.2), (-5.0, 2.0), 1.0, round_),
