@@ -95,7 +95,7 @@ def _robust() -> None:
 
 
 def _move(mode: Mode) -> None:
-    """A ball that falls on a floor and rolls against a box drawn into it, a bob on a wire, a load on a spring, a push by a formula:
+    """A ball that falls and runs into a box, which is drawn into the floor; a bob on a wire, a load on a spring, a push by a formula:
     bodies that meet, and bodies that do not."""
     import numpy as np
     from sympy import Symbol
