@@ -23,7 +23,8 @@ from data_gen.pages import page
 from data_gen.problems import ANSWERS, PROBLEMS, problem
 from data_gen.writers import sample_writer
 from data_gen.writing.grammars import general, mixed, physics
-from data_gen.writing.typeset import habits, written
+from data_gen.writing.habits import habits
+from data_gen.writing.typeset import written
 from evaluation.handwriting import Read, confusions, read_all, scores
 from evaluation.handwritten_pages import judge_all, reads
 from physics.formula.expected import expected

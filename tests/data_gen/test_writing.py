@@ -8,7 +8,8 @@ import pytest
 from data_gen.glyphs.alphabet import styles
 from data_gen.writers import sample_writer
 from data_gen.writing.grammars import Row, aslant, drill, general, mixed, physics
-from data_gen.writing.typeset import habits, written
+from data_gen.writing.habits import habits
+from data_gen.writing.typeset import written
 from sketch.writing.rows import known, latex, nodes_of, row_of
 from sketch.writing.signs import FRACTION, FUNCTIONS, ROOT, SIGNS
 

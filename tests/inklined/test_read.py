@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 
 from data_gen.writers import sample_writer
-from data_gen.writing.typeset import habits, written
+from data_gen.writing.habits import habits
+from data_gen.writing.typeset import written
 from sketch.files.jsonl import Row, write
 from sketch.writing.rows import nodes_of, row_of
 

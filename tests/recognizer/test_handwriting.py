@@ -12,7 +12,8 @@ import pytest
 from data_gen.strokes import items
 from data_gen.writers import ADULT, Spread, Writer, sample_writer
 from data_gen.writing.grammars import physics
-from data_gen.writing.typeset import Written, habits, written
+from data_gen.writing.habits import habits
+from data_gen.writing.typeset import Written, written
 from evaluation.handwriting import read_all, scores
 from recognizer.handwriting.line import groups, line_of, spaced
 from recognizer.handwriting.reader import NOTHING, Reader

@@ -13,7 +13,8 @@ from sklearn.linear_model import LogisticRegression
 
 from data_gen.writers import sample_writer
 from data_gen.writing.grammars import mixed
-from data_gen.writing.typeset import habits, written
+from data_gen.writing.habits import habits
+from data_gen.writing.typeset import written
 from recognizer.handwriting.confidence import Curve, measures
 from recognizer.handwriting.reader import Reader
 from sketch.writing.rows import latex

@@ -15,7 +15,8 @@ import numpy as np
 
 from data_gen.writers import sample_writer
 from data_gen.writing.grammars import aslant, drill, mixed
-from data_gen.writing.typeset import habits, written
+from data_gen.writing.habits import habits
+from data_gen.writing.typeset import written
 from recognizer.handwriting.line import Group, Line, groups, line_of, spaced
 from sketch.writing.rows import Row, nodes_of
 from sketch.writing.signs import NUMBER, SIGNS
