@@ -20,7 +20,8 @@ from pathlib import Path
 import numpy as np
 
 from data_gen.pages import page
-from data_gen.problems import ANSWERS, PROBLEMS, problem
+from data_gen.problems import ANSWERS, PROBLEMS, Problem, problem
+from data_gen.textbook.roster import exercise, names
 from data_gen.writers import sample_writer
 from data_gen.writing.grammars import general, mixed, physics
 from data_gen.writing.habits import habits
@@ -110,14 +111,30 @@ def generated(grammar: Callable[[np.random.Generator], Signs], count: int) -> li
 
 
 def formulas(reader: Reader, writers: int) -> None:
-    """The formulas of the six diagrams by writers each; right where the trees are equal, with the page's prior."""
-    texts = dict.fromkeys(
-        remark.text
+    """The formulas of all problems by writers each; right where the trees are equal, with the page's prior."""
+    drawn = [
+        problem(name, answer, np.random.default_rng([SEED, draw]))
         for name in PROBLEMS
         for answer in ANSWERS[name]
         for draw in range(30)
-        for remark in problem(name, answer, np.random.default_rng([SEED, draw])).remarks
+    ]
+    asked = [exercise(family, name, np.random.default_rng([SEED, 0])) for family, name in names()]
+    report_formulas("of the six diagrams", _texts(drawn), reader, writers)
+    report_formulas(
+        "of the textbook's problems",
+        _texts([one.answered(one.answers[0]) for one in asked]),
+        reader,
+        writers,
     )
+
+
+def _texts(problems: Sequence[Problem]) -> list[str]:
+    """What is written on pages, each formula once."""
+    return list(dict.fromkeys(remark.text for one in problems for remark in one.remarks))
+
+
+def report_formulas(whose: str, texts: Sequence[str], reader: Reader, writers: int) -> None:
+    wrong = Counter[str]()
     right, total = 0, 0
     for number, text in enumerate(texts):
         tree = parse(text)
@@ -125,9 +142,12 @@ def formulas(reader: Reader, writers: int) -> None:
         for writer in range(writers):
             rng = np.random.default_rng([SEED, number, writer])
             ink = written(row, habits(sample_writer(rng), rng)).ink
-            right += reader.read(ink.strokes, expected).tree == tree
+            good = reader.read(ink.strokes, expected).tree == tree
+            right += good
+            wrong[text] += not good
             total += 1
-    print(f"{len(texts)} formulas of the six diagrams, {writers} writers each: {right / total:.1%} right")
+    print(f"{len(texts)} formulas {whose}, {writers} writers each: {right / total:.1%} right")
+    print("    wrong most: " + ", ".join(f"{text} {n}" for text, n in wrong.most_common(8)))
 
 
 def strokewise(reader: Reader, count: int) -> None:

@@ -69,7 +69,7 @@ def main(arguments: list[str] | None = None) -> int:
     people = read_people(options.ink)
     log = options.out.with_suffix(".jsonl")
     log.parent.mkdir(parents=True, exist_ok=True)
-    found = _logged(log)
+    found = logged(log)
     for name in (ALL, *(options.only or (AGAIN, *VARIATIONS))):
         if name not in found:
             found[name] = right_without(name, people, options.threads)
@@ -114,20 +114,27 @@ def right_without(name: str, people: People, jobs: int, rule: AblationRule = RUL
 def balanced(right: Right, label: NDArray[np.int64], rows: NDArray[np.int64] | None = None) -> float:
     """Mean share of right rows over the labels, of some rows (with repetition) or all."""
     chosen = np.arange(len(label)) if rows is None else rows
-    counts = np.bincount(label[chosen], minlength=len(STROKE_KINDS))
-    hits = np.bincount(label[chosen], weights=right[chosen], minlength=len(STROKE_KINDS))
-    return float((hits / np.maximum(counts, 1))[counts > 0].mean())
+    counts = np.bincount(label[chosen])
+    hits = np.bincount(label[chosen], weights=right[chosen])
+    return float((hits[counts > 0] / counts[counts > 0]).mean())
 
 
-def interval(one: Right, other: Right, people: People, rule: AblationRule = RULE) -> tuple[float, float]:
-    """95 % interval of how much better `one` is than `other`, writers resampled with repetition."""
+def interval(
+    one: Right,
+    other: Right,
+    label: NDArray[np.int64],
+    writer: NDArray[np.int64],
+    rule: AblationRule = RULE,
+) -> tuple[float, float]:
+    """95 % interval of how much better `one` is than `other`, writers resampled with repetition. label, writer:
+    their numbers for each row, (R,)."""
     rng = np.random.default_rng(rule.seed)
-    by_writer = [np.flatnonzero(people.writer == k) for k in range(int(people.writer.max()) + 1)]
+    by_writer = [np.flatnonzero(writer == k) for k in range(int(writer.max()) + 1)]
     gains: list[float] = []
     for _ in range(rule.resamplings):
         drawn = rng.integers(len(by_writer), size=len(by_writer))
         rows = np.concatenate([by_writer[k] for k in drawn.tolist()])
-        gains.append(balanced(one, people.label, rows) - balanced(other, people.label, rows))
+        gains.append(balanced(one, label, rows) - balanced(other, label, rows))
     low, high = np.quantile(gains, [0.025, 0.975])
     return float(low), float(high)
 
@@ -146,11 +153,12 @@ def _table(found: dict[str, Right], people: People, ink: str) -> Iterable[str]:
     names = [name for name in found if name != ALL]
     lost = {name: balanced(base, people.label) - balanced(found[name], people.label) for name in names}
     for name in sorted(names, key=lambda name: -lost[name]):
-        low, high = interval(base, found[name], people)
+        low, high = interval(base, found[name], people.label, people.writer)
         yield f"{name:26}{100 * lost[name]:12.1f}   {100 * low:5.1f} … {100 * high:4.1f}"
 
 
-def _logged(log: Path) -> dict[str, Right]:
+def logged(log: Path) -> dict[str, Right]:
+    """Which rows each net read right, by what it was trained without."""
     if not log.exists():
         return {}
     lines: Sequence[dict[str, object]] = [json.loads(line) for line in log.read_text("utf-8").splitlines()]

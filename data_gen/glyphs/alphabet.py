@@ -2,8 +2,8 @@
 
 Frame: a box about 10 units high, y down, the baseline of most letters at y = 10.
 
-The files hold, for each symbol, its ways of being written ("allographs"), one string each:
-strokes are split by "/", points "x y" by ",", and "*" after a point marks a sharp corner.
+The files hold, for each symbol, its ways of being written ("allographs"), one string each: how often it
+is met with beside the others and "|" where that is not once, and its strokes, split by "/", points "x y" by ",", and "*" after a point marks a sharp corner.
 Between corners a stroke follows a Catmull-Rom curve through its points (Catmull and Rom 1974,
 uniform parametrisation).
 """
@@ -19,6 +19,9 @@ from itertools import pairwise
 import numpy as np
 
 from sketch.ink import FloatArray, readonly
+
+Knots = tuple[FloatArray, tuple[int, ...]]
+"""A stroke before it is a curve: the points that `curve` goes through, (n, 2), and which of them are corners."""
 
 STEPS = 8
 """Points put between two authored ones: the chord error of a half circle stays below 1 %."""
@@ -53,14 +56,23 @@ _ALIKE = {"\\vec": "\\rightarrow", "\\hat": "\\hat"}
 
 
 @cache
-def styles(sign: str) -> tuple[tuple[FloatArray, ...], ...]:
+def styles(sign: str) -> tuple[tuple[Knots, ...], ...]:
     """All ways of writing a sign of mathematics (`sketch.writing.signs`), those of `symbols()` and further ones,
-    each its strokes, (n, 2). Raises KeyError when it cannot be written."""
+    each the knots of its strokes. Raises KeyError when it cannot be written."""
     name = _ALIKE.get(sign, sign)
-    ways = (*_parsed("handwriting.json").get(name, ()), *_parsed("allographs.json").get(name, ()))
+    ways = (*_authored("handwriting.json").get(name, ()), *_authored("allographs.json").get(name, ()))
     if not ways:
         raise KeyError(f"no glyph for {sign!r}")
-    return ways
+    return tuple(tuple(_knots(stroke) for stroke in _share(way)[1].split("/")) for way in ways)
+
+
+@cache
+def shares(sign: str) -> FloatArray:
+    """Which share of people write a sign in each of its `styles`, (ways,)."""
+    name = _ALIKE.get(sign, sign)
+    ways = (*_authored("handwriting.json").get(name, ()), *_authored("allographs.json").get(name, ()))
+    weights = np.array([_share(way)[0] for way in ways])
+    return readonly(weights / weights.sum())
 
 
 def _ways(symbol: str) -> tuple[tuple[FloatArray, ...], ...]:
@@ -71,13 +83,15 @@ def _ways(symbol: str) -> tuple[tuple[FloatArray, ...], ...]:
 
 
 @cache
+def _authored(file: str) -> dict[str, list[str]]:
+    return json.loads(resources.files("data_gen.glyphs").joinpath(file).read_text("utf-8"))
+
+
+@cache
 def _parsed(file: str) -> dict[str, tuple[tuple[FloatArray, ...], ...]]:
-    raw: dict[str, list[str]] = json.loads(
-        resources.files("data_gen.glyphs").joinpath(file).read_text("utf-8")
-    )
     return {
-        symbol: tuple(tuple(_curve(stroke) for stroke in way.split("/")) for way in ways)
-        for symbol, ways in raw.items()
+        symbol: tuple(tuple(curve(*_knots(stroke)) for stroke in _share(way)[1].split("/")) for way in ways)
+        for symbol, ways in _authored(file).items()
     }
 
 
@@ -86,9 +100,8 @@ def objects() -> tuple[str, ...]:
     return tuple(_drawn())
 
 
-def knots(thing: str) -> tuple[tuple[FloatArray, tuple[int, ...]], ...]:
-    """The strokes of one of `objects()` before they are curves: the points that `curve` goes through, (n, 2), and
-    which of them are corners. Raises KeyError where there is no such thing."""
+def knots(thing: str) -> tuple[Knots, ...]:
+    """The strokes of one of `objects()`. Raises KeyError where there is no such thing."""
     return _drawn()[thing]
 
 
@@ -100,17 +113,19 @@ def curve(points: FloatArray, corners: Sequence[int]) -> FloatArray:
 
 
 @cache
-def _drawn() -> dict[str, tuple[tuple[FloatArray, tuple[int, ...]], ...]]:
+def _drawn() -> dict[str, tuple[Knots, ...]]:
     text = resources.files("data_gen.glyphs").joinpath("objects.json").read_text("utf-8")
     raw: dict[str, str] = json.loads(text)
     return {thing: tuple(_knots(stroke) for stroke in way.split("/")) for thing, way in raw.items()}
 
 
-def _curve(text: str) -> FloatArray:
-    return curve(*_knots(text))
+def _share(way: str) -> tuple[float, str]:
+    """How often a way is met with, and its strokes."""
+    weight, bar, strokes = way.partition("|")
+    return (float(weight), strokes) if bar else (1.0, way)
 
 
-def _knots(text: str) -> tuple[FloatArray, tuple[int, ...]]:
+def _knots(text: str) -> Knots:
     nodes = [node.strip() for node in text.split(",")]
     points = np.array([[float(number) for number in node.rstrip("*").split()] for node in nodes])
     return points, tuple(k for k in range(1, len(nodes) - 1) if nodes[k].endswith("*"))

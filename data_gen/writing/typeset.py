@@ -12,9 +12,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from data_gen.glyphs.alphabet import styles
+from data_gen.glyphs.alphabet import shares, styles
 from data_gen.pen import draw_each
-from data_gen.writing.habits import RULE, Habits, Usual
+from data_gen.writing.form import bent, curves, is_loop
+from data_gen.writing.habits import Habits, TypeRule, Usual
 from sketch.geometry import bounding_box
 from sketch.ink import FloatArray, Ink, Stroke
 from sketch.writing.rows import Node, Row
@@ -140,7 +141,8 @@ def _row(row: Row, by: Habits) -> _Block:
             more = 0.12 * by.rng.random() * (bottom - top)
             grown = by.rng.random() < 0.85 or bottom - top < 1.3
             sized = (top - more, bottom + more) if grown else (-1.1, 0.2)
-            width = {"|": 0.0, "\\Vert": 0.2}.get(node.name, 0.16 + 0.06 * (bottom - top))
+            round_ = (0.16 + 0.06 * (bottom - top)) * float(np.exp(by.rule.bulge * by.rng.standard_normal()))
+            width = {"|": 0.0, "\\Vert": 0.2}.get(node.name, round_)
             blocks[at] = _hung(node, _sign(node, by, *sized, width), by)
     signs: list[_Sign] = []
     at, top, bottom = 0.0, 0.0, 0.0
@@ -155,7 +157,7 @@ def _row(row: Row, by: Habits) -> _Block:
             )
             digits = before.isdigit() and node.name.isdigit()
             gap = (0.7 if digits else 1.0) * by["gap"] + airy * by["space"]
-            at += gap * (1 + RULE.loose * float(np.clip(by.rng.standard_normal(), -2, 2))) - 0.03
+            at += gap * (1 + by.rule.loose * float(np.clip(by.rng.standard_normal(), -2, 2))) - 0.03
         signs += block.moved(at, 0.0).signs
         at += block.width
         top, bottom = min(top, block.top), max(bottom, block.bottom)
@@ -231,7 +233,7 @@ def _sign(node: Node, by: Habits, top: float, bottom: float, width: float | None
         width = min(aspect * (bottom - top), 1.4 * (bottom - top)) * float(np.exp(by.writer.stretch))
         if node.name in ("1", "l", "i", ",", "'") and aspect < 0.15:
             width = 0.03
-    width *= size * float(np.exp(RULE.aspect * rng.standard_normal()))
+    width *= size * float(np.exp(by.rule.aspect * rng.standard_normal()))
     y = bottom - height + by["jump"] * rng.standard_normal()
     return _Block([_Sign(node.strokes[0], node.name, paths, 0.0, y, width, height)], width, y, y + height)
 
@@ -239,25 +241,21 @@ def _sign(node: Node, by: Habits, top: float, bottom: float, width: float | None
 def _way(name: str, by: Habits) -> tuple[list[FloatArray], float]:
     """The strokes of one way of writing the sign, filling the unit box, and its width over its height."""
     rng = by.rng
-    ways = styles(name)
     usual = by.usual.get(name)
-    if usual is None or rng.random() < RULE.other_way:
-        way = int(rng.integers(len(ways)))
-        count = len(ways[way])
-        order = rng.permutation(count) if count > 1 and rng.random() < RULE.swapped else range(count)
-        usual = Usual(way, tuple(map(int, order)), tuple((rng.random(count) < RULE.backwards).tolist()))
+    if usual is None or rng.random() < by.rule.other_way:
+        usual = _usual(name, rng, by.rule)
         by.usual.setdefault(name, usual)
-    paths = [ways[usual.way][k] for k in usual.order]
-    paths = [
-        path[::-1] if back and _straight(path) else path
-        for path, back in zip(paths, usual.turned, strict=True)
-    ]
-    if 1 < len(paths) < 4 and name not in ("=", "i", "j", "\\Vert") and rng.random() < RULE.unlifted:
+    ways = styles(name)[usual.way]
+    freedom = by["freedom"]
+    own = bent([ways[k] for k in usual.order], freedom, np.random.default_rng(usual.hand), by.form)
+    paths = curves(bent(own, by.form.now * freedom, rng, by.form), rng, by.form)
+    paths = [path[::-1] if turned else path for path, turned in zip(paths, usual.turned, strict=True)]
+    if 1 < len(paths) < 4 and name not in ("=", "i", "j", "\\Vert") and rng.random() < by.rule.unlifted:
         paths = [np.concatenate(paths)]
     low, high = bounding_box(np.concatenate(paths))
     size = high - low
     box = np.where(size > 1e-6, size, 1.0)
-    spread = RULE.shift if len(paths) > 1 else 0.0
+    spread = by.rule.shift if len(paths) > 1 else 0.0
     unit = [
         (path - low) / box + spread * rng.standard_normal(2) * np.where(size > 1e-6, 1.0, 0.0)
         for path in paths
@@ -265,9 +263,25 @@ def _way(name: str, by: Habits) -> tuple[list[FloatArray], float]:
     return unit, float(size[0] / size[1]) if size[1] > 1e-6 else 10.0
 
 
-def _straight(path: FloatArray) -> bool:
-    steps = np.hypot(*np.diff(path, axis=0).T).sum()
-    return bool(np.hypot(*(path[-1] - path[0])) > 0.95 * steps)
+def _usual(name: str, rng: np.random.Generator, rule: TypeRule) -> Usual:
+    """Somebody's way of the sign."""
+    ways = styles(name)
+    known = shares(name)[: rule.ways]
+    way = int(rng.choice(len(known), p=known / known.sum()))
+    strokes = ways[way]
+    count = len(strokes)
+    order = rng.permutation(count) if count > 1 and rng.random() < rule.swapped else range(count)
+    chosen = tuple(map(int, order))
+    size = float(np.max(np.ptp(np.concatenate([points for points, _ in strokes]), axis=0)))
+    turned = tuple(bool(rng.random() < _backwards(strokes[k][0], size, rule)) for k in chosen)
+    return Usual(way, chosen, turned, int(rng.integers(1 << 62)))
+
+
+def _backwards(points: FloatArray, size: float, rule: TypeRule) -> float:
+    """The share of writers who draw such a stroke from its other end."""
+    if is_loop(points, size):
+        return rule.clockwise
+    return rule.backwards if len(points) == 2 else rule.reversed
 
 
 def _hung(node: Node, block: _Block, by: Habits) -> _Block:
@@ -367,7 +381,7 @@ def _root(node: Node, by: Habits) -> _Block:
         points.append([right + 0.03, top + rng.uniform(0.08, 0.25)])
     path = np.array(points)
     paths = [path]
-    if rng.random() < 0.12:
+    if rng.random() < by.rule.two_strokes:
         corner = int(np.argmin(np.hypot(*(path - [lead, top]).T)))
         paths = [path[: corner + 1], path[corner:]]
     low, high = bounding_box(path)
@@ -397,7 +411,7 @@ def _word(node: Node, by: Habits) -> _Block:
         letters.append([path * [sign.w, sign.h] + [at, sign.y] for path in sign.paths])
         at += block.width + by["gap"] * rng.uniform(0.1, 0.8)
         top, bottom = min(top, block.top), max(bottom, block.bottom)
-    if rng.random() < RULE.joined:
+    if rng.random() < by.rule.joined:
         whole = [letters[0][0]]
         late: list[FloatArray] = list(letters[0][1:])
         for strokes in letters[1:]:
@@ -423,12 +437,15 @@ def _placed(block: _Block, by: Habits) -> tuple[list[FloatArray], list[int]]:
     """Paths in page units, in writing order, and the node of each."""
     rng = by.rng
     phase, period = rng.uniform(0, 2 * np.pi), rng.uniform(3, 9)
-    wave = RULE.drift * rng.standard_normal()
+    wave = by.rule.drift * rng.standard_normal()
     paths: list[FloatArray] = []
     owner: list[int] = []
     for sign in block.signs:
         box = np.array([sign.w, sign.h])
-        turn, lean = RULE.turn * rng.standard_normal(), RULE.lean * rng.standard_normal() - by.writer.slant
+        turn, lean = (
+            by.rule.turn * rng.standard_normal(),
+            by.rule.lean * rng.standard_normal() - by.writer.slant,
+        )
         if sign.name in (FRACTION, ROOT, "-", "="):
             turn, lean = 0.5 * turn, 0.3 * lean
         spin = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
@@ -445,7 +462,7 @@ def _delayed(
     paths: list[FloatArray], owner: list[int], nodes: Sequence[str], by: Habits
 ) -> tuple[list[FloatArray], list[int]]:
     """Dots of i and j and bars of t put when all is written, by some."""
-    if by.rng.random() >= RULE.delayed:
+    if by.rng.random() >= by.rule.delayed:
         return paths, owner
     first: set[int] = set()
     early: list[int] = []

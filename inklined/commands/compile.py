@@ -1,13 +1,14 @@
 """`inklined compile`: machine code for this machine, made before anybody waits for it.
 
 The engine, the pen and the geometric recognizer compile their inner loops when these are first needed, one after
-another. Here they are needed all at once, each in a process of its own, so that every core works.
+another. Here they are needed all at once, each in a process of its own, so that every core works. What the studio
+needs to set a first drawing in motion is half of it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -20,7 +21,11 @@ def register(app: typer.Typer) -> None:
     app.command("compile", epilog="Example: inklined compile")(compile_all)
 
 
-def compile_all() -> None:
+def compile_all(
+    studio: Annotated[
+        bool, typer.Option("--studio", help="Only what the studio needs for a first drawing.")
+    ] = False,
+) -> None:
     """Compile for this machine what runs fast: once, in all cores, instead of when it is first needed."""
     from joblib import Parallel, delayed
 
@@ -33,6 +38,8 @@ def compile_all() -> None:
         "the engine for crowds": _robust,
         "the geometric recognizer": _geometric,
     }
+    if studio:
+        jobs = {name: job for name, job in jobs.items() if job in (_exact, _geometric)}
     err.print(f"Compiling {', '.join(jobs)} for this machine: once, for a minute or two.", style="dim")
     with progress() as tell:
         done = Parallel(n_jobs=-1, return_as="generator_unordered")(
@@ -51,12 +58,14 @@ def _quietly(job: Callable[[], None]) -> None:
 
 
 def _pen() -> None:
+    from data_gen.ideals import coil
     from data_gen.pages import pages
     from data_gen.strokes import doodles, items
 
     items(100, seed=1)
     doodles(5, seed=1)
     list(pages(6, seed=1, cluttered=True))
+    coil((0.0, 0.0), (100.0, 0.0), 5.0, 20.0)
 
 
 def _geometric() -> None:
@@ -83,11 +92,23 @@ def _geometric() -> None:
     ]
     beside = np.array([400.0, 0.0])
     strokes = (Stroke(path + k * beside, 0.001 * np.arange(120)) for k, path in enumerate(paths))
-    Geometric().recognize(Ink(tuple(strokes)))
+    several = Ink(tuple(strokes))
+    Geometric().recognize(several)
+    Geometric().recognize(Ink(several.strokes[:1]))  # what stands alone is measured by itself
 
 
 def _exact() -> None:
+    """All that happens on the six diagrams, with right and wrong answers."""
+    import numpy as np
+
+    from data_gen.pages import meaning
+    from data_gen.problems import ANSWERS, PROBLEMS, problem
+    from physics.pipeline import move
+
     _move("exact")
+    for name in PROBLEMS:
+        for answer in ANSWERS[name]:
+            move(meaning(problem(name, answer, np.random.default_rng(1))), 1.0)
 
 
 def _robust() -> None:

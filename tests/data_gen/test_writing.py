@@ -70,4 +70,4 @@ def test_scripts_numerators_and_radicands_stand_where_they_belong() -> None:
 def test_every_sign_can_be_written_in_two_ways_at_least(sign: str) -> None:
     ways = styles(sign)
     assert len(ways) >= 2 or sign == "-"
-    assert all(np.isfinite(stroke).all() for way in ways for stroke in way)
+    assert all(np.isfinite(points).all() and len(points) > 1 for way in ways for points, _ in way)

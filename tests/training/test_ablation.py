@@ -38,8 +38,8 @@ def test_every_label_counts_the_same_however_many_rows_it_has(people: People) ->
 
 def test_a_net_is_no_better_than_itself_and_one_that_is_always_right_is(people: People) -> None:
     right, wrong = np.ones(13, dtype=bool), np.zeros(13, dtype=bool)
-    assert interval(right, right, people) == (0.0, 0.0)
-    assert interval(right, wrong, people) == (1.0, 1.0)
+    assert interval(right, right, people.label, people.writer) == (0.0, 0.0)
+    assert interval(right, wrong, people.label, people.writer) == (1.0, 1.0)
 
 
 @pytest.mark.usefixtures("people")

@@ -72,11 +72,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         (out / "clouds.npz").write_bytes(templates(corpus, options.seed))
         rule = replace(RULE, epochs=options.epochs)
         kept = f"signs-{options.seed}-{len(corpus)}-{options.epochs}"
-        first = fit(corpus, options.seed, rule, _telling(tell, "signs"), work / f"{kept}.pt")
-        second = replace(rule, rate=rule.again)
-        net = fit(
-            corpus, options.seed + 1, second, _telling(tell, "signs again"), work / f"{kept}-again.pt", first
-        )
+        net = fit(corpus, options.seed, rule, _telling(tell, "signs"), work / f"{kept}.pt")
         shown = {
             "sequence": torch.zeros(4, CHANNELS, POINTS),
             "images": torch.zeros(4, IMAGES, SIDE, SIDE),
@@ -141,7 +137,7 @@ def templates(corpus: Sequence[Example], seed: int) -> bytes:
 def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m training.handwriting", description=__doc__)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--lines", type=int, default=10_000, help="generated lines to learn from")
+    parser.add_argument("--lines", type=int, default=36_000, help="generated lines to learn from")
     parser.add_argument("--epochs", type=int, default=RULE.epochs)
     parser.add_argument("--related", type=int, default=16_000, help="lines that relations are learnt from")
     parser.add_argument(

@@ -14,8 +14,11 @@ from pathlib import Path
 import numpy as np
 
 from data_gen.writers import sample_writer
+from data_gen.writing.form import RULE as FORM
+from data_gen.writing.form import FormRule
 from data_gen.writing.grammars import aslant, drill, mixed
-from data_gen.writing.habits import habits
+from data_gen.writing.habits import RULE as TYPE
+from data_gen.writing.habits import TypeRule, habits
 from data_gen.writing.typeset import written
 from recognizer.handwriting.line import Group, Line, groups, line_of, spaced
 from sketch.writing.rows import Row, nodes_of
@@ -27,10 +30,22 @@ SLANTED = 0.45
 """Share of lines with many scripts among those that relations are learnt from."""
 JUNKY = 1.3
 """Groups that are no sign for each that is one, at most."""
-DRILLED = 0.3
+DRILLED = 0.2
 """Share of lines of any signs side by side: the rest are expressions."""
 
 Grammar = Callable[[np.random.Generator], Row]
+
+
+@dataclass(frozen=True, slots=True)
+class Hand:
+    """The ranges of people's hands that ink is made with; pen: by a simulated pen, not as the paths are meant."""
+
+    type: TypeRule = TYPE
+    form: FormRule = FORM
+    pen: bool = True
+
+
+HAND = Hand()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,10 +58,10 @@ class Example:
     row: Row
 
 
-def example(rng: np.random.Generator, grammar: Grammar | None = None) -> Example:
+def example(rng: np.random.Generator, grammar: Grammar | None = None, hand: Hand = HAND) -> Example:
     """One line by a writer of its own."""
     chosen = grammar or (drill if rng.random() < DRILLED else mixed)
-    found = written(chosen(rng), habits(sample_writer(rng), rng))
+    found = written(chosen(rng), habits(sample_writer(rng), rng, hand.type, hand.form), hand.pen)
     line = line_of([spaced(stroke) for stroke in found.ink])
     truth = {tuple(sorted(node.strokes)): NUMBER[node.name] for node in nodes_of(found.row)}
     junk = [group for group in groups(line) if group not in truth]

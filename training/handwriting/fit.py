@@ -20,22 +20,22 @@ from training.handwriting.nets import SignNet
 class SignFitRule:
     """How the net of signs is trained."""
 
-    epochs: int = 2
-    """Of each of two cycles."""
+    epochs: int = 6
     lines: int = 32
     """Lines in a batch; each has some 20 groups."""
     rate: float = 3e-3
     """Peak of a one-cycle learning rate (Smith 2018), AdamW."""
-    again: float = 1.5e-3
-    """The peak of a second cycle, which goes on from the first."""
     decay: float = 1e-2
     smoothing: float = 0.02
     """Label smoothing: some signs are others by anybody's eye."""
     alone: float = 0.25
     """Share of the lines whose signs are looked at as if nothing else were on the page."""
+    dots: float = 0.25
+    """Share of dots and degrees that are: without its line a dot may look like any sign, and a degree is a zero."""
 
 
 RULE = SignFitRule()
+_DOTS = (NUMBER["."], NUMBER["\\cdot"], NUMBER["\\circ"])
 
 
 def fit(
@@ -44,11 +44,10 @@ def fit(
     rule: SignFitRule = RULE,
     progress: Callable[[float, float], None] = lambda _share, _loss: None,
     checkpoint: Path | None = None,
-    start: SignNet | None = None,
 ) -> SignNet:
-    """Trains on the lines, a new net or the one to start with. `progress` is told the share done and the running loss."""
+    """A net trained on the lines. `progress` is told the share done and the running loss."""
     torch.manual_seed(seed)
-    net = start or SignNet()
+    net = SignNet()
     net.to(memory_format=torch.channels_last)  # pyright: ignore[reportCallIssue, reportArgumentType]
     steps = rule.epochs * -(-len(corpus) // rule.lines)
     optimizer = torch.optim.AdamW(net.parameters(), lr=rule.rate, weight_decay=rule.decay)
@@ -105,7 +104,7 @@ def batch(
             chosen = [
                 (g, NUMBER["-"] if s == NUMBER[FRACTION] else s)
                 for g, s in zip(one.groups, one.signs, strict=True)
-                if s != JUNK
+                if s != JUNK and (s not in _DOTS or rng.random() < rule.dots)
             ]
             parts.append(looks_of(one.line, [group for group, _ in chosen], alone=True))
             answers += [sign for _, sign in chosen]

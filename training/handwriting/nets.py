@@ -27,10 +27,11 @@ def _across(inputs: int, outputs: int, stride: int, size: int = 3) -> nn.Sequent
 
 class SignNet(nn.Module):
     """sequence (B, 5, 64), images (B, 3, 28, 28) and numbers (B, 6) -> scores (B, signs + 1), the last that the
-    group is no sign."""
+    group is no sign. unseen: how often training hides the run of the pen, and how often the images."""
 
-    def __init__(self, width: int = 24) -> None:
+    def __init__(self, width: int = 24, unseen: float = 0.15) -> None:
         super().__init__()
+        self.unseen = unseen
         self.along = nn.Sequential(
             _along(CHANNELS, width, 1),
             _along(width, 2 * width, 2),
@@ -54,4 +55,8 @@ class SignNet(nn.Module):
         run = sequence[:, :, None].contiguous(memory_format=torch.channels_last)
         along = self.along(run).flatten(1)
         across = self.across(images.contiguous(memory_format=torch.channels_last)).flatten(1)
+        if self.training:  # each view learns to do without the other: people's ink surprises one or the other
+            chance = torch.rand(len(along), 1)
+            along = along * (chance > self.unseen)
+            across = across * (chance < 1 - self.unseen)
         return self.join(torch.cat([along, across, numbers], dim=1))
