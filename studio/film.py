@@ -37,7 +37,7 @@ def film(motion: Motion, seconds: float, rule: FilmRule = RULE) -> bytes:
         ) from None
     count = max(2, round(seconds * rule.rate) + 1)
     stream = BytesIO()
-    with av.open(stream, "w", format="mp4", options={"movflags": "faststart"}) as file:
+    with av.open(stream, "w", format="mp4") as file:
         video = file.add_stream("libx264", rate=Fraction(rule.rate), options={"crf": str(rule.quality)})
         video.pix_fmt = "yuv420p"  # the one that players without a computer behind them know
         video.codec_context.thread_count = 1
