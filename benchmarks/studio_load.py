@@ -2,8 +2,8 @@
 
     python benchmarks/studio_load.py --kills 50 --bad 10000 --clients 20
 
-kills: the server is killed in the middle of a stroke, of an analysis and of a run in turn, and started again: pages lost, and
-strokes that had been acknowledged and are missing; bad: mutated messages: answers that were no sentence, and how much memory grew;
+kills: the server is killed in the midst of a stroke, of many, of an analysis, of saving to a file and of a run in turn, each time
+started again: pages lost, strokes that had been acknowledged and are missing, notebooks that are not whole; bad: mutated messages: answers that were no sentence, and how much memory grew;
 clients: so many pages drawn at once, a gap of 50 ms between strokes, each then analyzed: p95, and strokes on a wrong page.
 """
 
@@ -13,17 +13,32 @@ import argparse
 import json
 import os
 import random
+import sqlite3
 import tempfile
 import threading
 import time
 import urllib.request
+from contextlib import closing
+from http.client import HTTPException
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from websockets.exceptions import ConnectionClosed
 
 from data_gen.pages import page as generated
-from studio_workshop import RAMP, Client, Served, client, dense, ring, served, start, stroke_message
+from studio_workshop import (
+    PATIENCE,
+    RAMP,
+    Client,
+    Served,
+    client,
+    dense,
+    ring,
+    served,
+    start,
+    stroke_message,
+)
 
 
 def main() -> None:
@@ -34,11 +49,12 @@ def main() -> None:
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
     figures: dict[str, Any] = {"load average": os.getloadavg()[0]}
-    with tempfile.TemporaryDirectory() as folder, served(Path(folder), warm=True) as studio:
-        while not json.loads(urllib.request.urlopen(f"{studio.url}/api/status").read())["ready"]:
-            time.sleep(1)
-        figures["clients"] = _crowd(studio, options.clients)
-        figures["bad messages"] = _bad(studio, options.bad)
+    if options.clients or options.bad:
+        with tempfile.TemporaryDirectory() as folder, served(Path(folder), warm=True) as studio:
+            while not json.loads(urllib.request.urlopen(f"{studio.url}/api/status").read())["ready"]:
+                time.sleep(1)
+            figures["clients"] = _crowd(studio, options.clients) if options.clients else None
+            figures["bad messages"] = _bad(studio, options.bad) if options.bad else None
     if options.kills:
         figures["kills"] = _kills(options.kills)
     print(json.dumps(figures, indent=1))
@@ -139,38 +155,76 @@ def _bad(studio: Served, count: int) -> dict[str, Any]:
     }
 
 
+MIDST = ("of a stroke", "of many strokes", "of an analysis", "of saving to a file", "of a run")
+
+
 def _kills(count: int) -> dict[str, Any]:
-    lost = missing = 0
+    """Kills the server in the midst of each thing in turn, at a random moment, and looks after each restart at every page
+    that there has ever been, and whether it goes on."""
+    rng = random.Random(3)
+    lost = missing = doubled = broken = 0
     with tempfile.TemporaryDirectory() as folder:
         studio = start(Path(folder))
-        pages: dict[str, list[str]] = {}
+        pages: dict[str, set[str]] = {}
         for turn in range(count):
             page = _new(studio)
-            pages[page] = []
-            with client(studio.url, page, f"t{turn}-") as one:
-                one.draw(dense(RAMP))
-                one.draw(ring(330, 180, 34, 3.0))
-                if turn % 3 == 2:
-                    one.ask(type="analyze")
-                pages[page] = [stroke["id"] for stroke in _state(studio, page)["strokes"]]
-                match turn % 3:
-                    case 0:
-                        one.send(type="stroke", key="half", **stroke_message(dense([(0, 0), (90, 9)])))
-                    case 1:
-                        one.send(type="analyze", key="half")
-                    case _:
-                        one.send(type="run", run=1, seconds=30)
-                time.sleep(0.01 * (turn % 7))
-                studio.kill()
+            pages[page] = _worked_and_killed(studio, page, turn, rng.uniform(0.0, 0.15))
+            with closing(sqlite3.connect(Path(folder) / "notebook.sqlite")) as notebook:
+                broken += notebook.execute("pragma integrity_check").fetchone() != ("ok",)
             studio = start(Path(folder), studio.port)
-            there = {
-                one["id"] for one in json.loads(urllib.request.urlopen(f"{studio.url}/api/pages").read())
-            }
-            lost += sum(name not in there for name in pages)
-            kept = {stroke["id"] for stroke in _state(studio, page)["strokes"]}
-            missing += sum(name not in kept for name in pages[page])
+            there = json.loads(urllib.request.urlopen(f"{studio.url}/api/pages").read())
+            lost += len(pages.keys() - {one["id"] for one in there})
+            for name, acknowledged in pages.items():
+                kept = [stroke["id"] for stroke in _state(studio, name)["strokes"]]
+                missing += len(acknowledged.difference(kept))
+                doubled += len(kept) - len(set(kept))
+            with client(
+                studio.url, page, f"t{turn}-"
+            ) as one:  # the same stroke again, as a browser does, and another
+                for key in ("half", "after"):
+                    one.send(type="stroke", key=key, **stroke_message(dense([(0, 0), (90, 9)])))
+                    one.until("ack")
+            names = [stroke["id"] for stroke in _state(studio, page)["strokes"]]
+            broken += names.count("half") != 1 or names.count("after") != 1
+            pages[page] |= {"half", "after"}
         studio.kill()
-    return {"kills": count, "pages lost": lost, "acknowledged strokes missing": missing}
+    return {
+        "kills": count, "in the midst": MIDST, "pages lost": lost, "acknowledged strokes missing": missing,
+        "strokes twice": doubled, "notebooks or pages that did not go on": broken, "strokes acknowledged": sum(map(len, pages.values())),
+    }  # fmt: skip
+
+
+def _worked_and_killed(studio: Served, page: str, turn: int, moment: float) -> set[str]:
+    """Draws on a page, does something more, and kills the server so many seconds later; the strokes that were
+    acknowledged by then."""
+    acknowledged: set[str] = set()
+    midst = MIDST[turn % len(MIDST)]
+    with client(studio.url, page, f"t{turn}-") as one:
+        for stroke in (dense(RAMP), ring(330, 180, 34, 3.0)):
+            acknowledged.add(one.draw(stroke)["key"])
+        if midst == "of a run":
+            one.ask(type="analyze")
+        killing = threading.Timer(moment, studio.kill)
+        killing.start()
+        try:
+            match midst:
+                case "of a stroke":
+                    one.send(type="stroke", key="half", **stroke_message(dense([(0, 0), (90, 9)])))
+                case "of many strokes":
+                    for k in range(1000):
+                        acknowledged.add(one.draw(dense([(0, 5.0 * k), (90, 5.0 * k)]), ink=True)["key"])
+                case "of an analysis":
+                    one.send(type="analyze", key="analysis")
+                case "of saving to a file":
+                    urllib.request.urlopen(f"{studio.url}/api/pages/{page}/export?kind=inklined").read()
+                case _:
+                    one.send(type="run", run=1, seconds=30)
+            while one.hear(PATIENCE):
+                pass
+        except (ConnectionClosed, OSError, HTTPException):
+            pass
+        killing.join()
+    return acknowledged
 
 
 if __name__ == "__main__":

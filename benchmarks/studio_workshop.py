@@ -22,7 +22,11 @@ import numpy as np
 from numpy.typing import NDArray
 from websockets.sync.client import ClientConnection, connect
 
+from data_gen.writers import sample_writer
+from data_gen.writing.habits import habits
+from data_gen.writing.typeset import written
 from sketch.ink import Ink, Stroke
+from sketch.writing.rows import row_of
 
 ROOT = Path(__file__).parents[1]
 PATIENCE = 180.0
@@ -198,6 +202,23 @@ def zigzag(ink: Ink, strokes: Iterable[int], teeth: int = 9) -> Stroke:
 
 def dot(x: float, y: float) -> Stroke:
     return Stroke([[x, y], [x + 0.4, y + 0.3]], [0.0, 0.02], [0.5, 0.5])
+
+
+def line_of(
+    text: str, x: float, y: float, seed: int, height: float = 30.0, start: float = 10.0
+) -> list[Stroke]:
+    """A line of mathematics (signs apart, as "m = 2") as a generated writer writes it, its left top at (x, y), its
+    letters some so many page units high."""
+    rng = np.random.default_rng([7, seed])
+    ink = written(row_of(text), habits(sample_writer(rng), rng)).ink
+    points = ink.points_of(range(len(ink)))
+    low, factor = points.min(axis=0), height / np.ptp(points[:, 1])
+    moved: list[Stroke] = []
+    for stroke in ink:
+        times = start + 0.008 * np.arange(len(stroke))
+        start = float(times[-1]) + 0.2
+        moved.append(Stroke((stroke.points - low) * factor + [x, y], times, np.full(len(stroke), 0.5)))
+    return moved
 
 
 RAMP = [(150, 350), (450, 350), (450, 160), (150, 350)]

@@ -1,10 +1,11 @@
-"""Pictures of a motion: moments side by side as SVG, and an animation as GIF.
+"""Pictures of a motion: moments side by side as SVG, an animation as GIF, and its single frames.
 
 Frame: page units, y down.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from io import BytesIO
 
@@ -92,12 +93,10 @@ def animation(
 ) -> bytes:
     """GIF of the motion from the start to `seconds`, in real time, over and over."""
     count = min(layout.most, max(2, round(seconds / layout.step) + 1))
-    shown = frames(motion, seconds, count)
-    box = view(shown)
-    images: list[Image.Image] = []
-    for k, one in enumerate(shown, start=1):
-        images.append(_image(one, box, layout))
-        progress("Drawing frames", k, count)
+    images = [
+        image.quantize(colors=64, dither=Image.Dither.NONE)
+        for image in images_of(motion, seconds, count, progress, layout)
+    ]
     pause = max(20, round(1000 * seconds / (count - 1)))
     stream = BytesIO()
     images[0].save(
@@ -109,6 +108,17 @@ def animation(
         loop=0,
     )
     return stream.getvalue()
+
+
+def images_of(
+    motion: Motion, seconds: float, count: int, progress: Progress = silent, layout: PictureLayout = LAYOUT
+) -> Iterator[Image.Image]:
+    """So many frames from the start to `seconds`, at equal times, as RGB images of one size, both sides even."""
+    shown = frames(motion, seconds, count)
+    box = view(shown)
+    for k, one in enumerate(shown, start=1):
+        yield _image(one, box, layout)
+        progress("Drawing frames", k, count)
 
 
 def _drawn(one: Frame, pen: Pen, layout: PictureLayout, names: bool) -> list[str]:
@@ -133,7 +143,7 @@ def _thinned(points: FloatArray, step: float) -> FloatArray:
 
 def _image(one: Frame, box: tuple[float, float, float, float], layout: PictureLayout) -> Image.Image:
     left, top, wide, high = box
-    size = (layout.pixels, max(1, round(layout.pixels * high / wide)))
+    size = (layout.pixels, max(2, 2 * round(layout.pixels * high / wide / 2)))
     scale = layout.oversampling * layout.pixels / wide
     image = Image.new("RGB", (layout.oversampling * size[0], layout.oversampling * size[1]), layout.paper)
     pencil = ImageDraw.Draw(image)
@@ -152,7 +162,7 @@ def _image(one: Frame, box: tuple[float, float, float, float], layout: PictureLa
         pencil.line(points, fill=colour, width=thick, joint="curve")
     for spoke in one.spokes:
         pencil.line(pixels(np.array(spoke)), fill=COLOURS["circle"], width=max(1, thick // 2))
-    return image.resize(size, Image.Resampling.LANCZOS).quantize(colors=64, dither=Image.Dither.NONE)
+    return image.resize(size, Image.Resampling.LANCZOS)
 
 
 def _outline(part: Component) -> FloatArray:

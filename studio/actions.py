@@ -19,7 +19,7 @@ from sketch.ink import Ink, Stroke
 from sketch.page import SketchError
 from sketch.shapes import Point
 from studio.asked import list_of, number_of, point_of, text_of, whole_of
-from studio.board import NOTHING, Board, Selection, moved, with_stroke, without
+from studio.board import NOTHING, Board, Selection, loose, moved, places, with_stroke, without
 from studio.limits import LIMITS, Refused
 
 
@@ -85,11 +85,13 @@ class Dissociate:
 
 @dataclass(frozen=True, slots=True)
 class Write:
-    """A formula is typed: a new one (line None) that stands at `at`, or in the place of one that is there."""
+    """A formula is typed: a new one (line None) that stands at `at`, or in the place of one that is there. strokes:
+    the ink that says so, where a new one is what somebody wrote by hand and nobody has read."""
 
     text: str
     line: int | None = None
     at: Point | None = None
+    strokes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,8 +191,8 @@ def _done(board: Board, action: Action, strokes: Strokes) -> Board:
             return replace(board, sketch=sketch, selected=NOTHING)
         case Dissociate(line, label):
             return replace(board, sketch=without_association(sketch, line, label), selected=NOTHING)
-        case Write(text, line, at):
-            return _written(board, text, line, at)
+        case Write():
+            return _written(board, action)
         case Leave(rule, label):
             return replace(board, without=board.without | {(rule, label)})
         case Correct(rule, label):
@@ -205,13 +207,21 @@ def _done(board: Board, action: Action, strokes: Strokes) -> Board:
             assert_never(action)
 
 
-def _written(board: Board, text: str, line: int | None, at: Point | None) -> Board:
+def _written(board: Board, new: Write) -> Board:
     sketch = board.sketch
-    if line is not None:
-        return replace(board, sketch=rewritten(sketch, line, text, at=at), selected=NOTHING)
+    if new.line is not None:
+        return replace(board, sketch=rewritten(sketch, new.line, new.text, at=new.at), selected=NOTHING)
     if len(sketch.expressions) >= LIMITS.lines:
         raise Refused(f"the page has {LIMITS.lines} formulas, which is the most it may have")
-    more = (*sketch.expressions, expression(text, at=at))
+    inked, free = places(board, new.strokes), set(loose(board))
+    if not free.issuperset(inked) or len(inked) < len(set(new.strokes)):
+        raise Refused("some of that ink is gone or has been read as something else; write the formula again")
+    at = new.at
+    if inked:
+        points = sketch.ink.points_of(inked)
+        x, y = ((points.min(axis=0) + points.max(axis=0)) / 2).tolist()
+        at = (x, y)
+    more = (*sketch.expressions, expression(new.text, inked, at))
     return replace(board, sketch=replace(sketch, expressions=more), selected=NOTHING)
 
 

@@ -63,7 +63,7 @@ def without(
     board: Board, strokes: Collection[str], components: Collection[str] = (), lines: Collection[int] = ()
 ) -> Board:
     """The board with these erased. A component goes with its ink and the taps on it, a line with its ink; a line
-    of which only some ink is erased stays, with all that it governs (row P5)."""
+    of which only some ink is erased stays, with all that it governs (row P5), and is to be read again (row R4)."""
     sketch = board.sketch
     gone = {index for index, name in enumerate(board.names) if name in strokes}
     for label in components:
@@ -78,7 +78,15 @@ def without(
     for number in reversed(emptied):
         gone |= set(sketch.expressions[number].strokes)
         sketch = without_line(sketch, number)
-    return _kept(replace(board, sketch=sketch, selected=NOTHING), gone)
+    lines_left = tuple(
+        unread(line) if gone.intersection(line.strokes) else line for line in sketch.expressions
+    )
+    return _kept(replace(board, sketch=replace(sketch, expressions=lines_left), selected=NOTHING), gone)
+
+
+def unread(line: Expression) -> Expression:
+    """A line whose ink is not what it was read from any more."""
+    return Expression(None, line.strokes, line.at)
 
 
 def _taps_on(sketch: Sketch, part: Component) -> set[int]:
@@ -191,7 +199,7 @@ def titled(board: Board) -> str:
     return ", ".join(written[:3]) if written else "Untitled"
 
 
-def told(board: Board, names: Sequence[str]) -> tuple[int, ...]:
-    """The places of strokes by their names; those that are not there are left out."""
+def places(board: Board, names: Sequence[str]) -> tuple[int, ...]:
+    """Where strokes stand in the ink, by their names; those that are not there are left out."""
     place = {name: index for index, name in enumerate(board.names)}
-    return tuple(place[name] for name in names if name in place)
+    return tuple(sorted(place[name] for name in names if name in place))

@@ -20,7 +20,7 @@ from sketch.page import Association, Component, Sketch
 from sketch.shapes import Circle, Polygon, Wire
 from studio.actions import Open
 from studio.limits import Refused
-from studio.reading import GESTURES, READER, rival
+from studio.reading import GESTURES, READER, handwriting, rival
 from studio.session import Listener, Session
 from studio.store import Penned, Store
 
@@ -38,6 +38,7 @@ class Desk:
         self.store = Store(notebook)
         self.work = ThreadPoolExecutor(WORKERS, "inklined-work")
         self.runs = ThreadPoolExecutor(WORKERS, "inklined-run")
+        self.hand = ThreadPoolExecutor(1, "inklined-hand")
         self.ready = False
         self.connected: set[Listener] = set()
         self._open: OrderedDict[str, Session] = OrderedDict()
@@ -47,7 +48,7 @@ class Desk:
         """The page, opened if it is not. Raises Refused where there is none."""
         async with self._opening:
             if page not in self._open:
-                self._open[page] = await Session.opened(page, self.store, self.work)
+                self._open[page] = await Session.opened(page, self.store, self.work, self.hand)
                 idle = [name for name, one in self._open.items() if not one.listeners and name != page]
                 for name in idle[: max(0, len(self._open) - OPEN)]:
                     del self._open[name]
@@ -84,6 +85,7 @@ class Desk:
         """Ends the workers, then the notebook."""
         self.work.shutdown(wait=True, cancel_futures=True)
         self.runs.shutdown(wait=True, cancel_futures=True)
+        self.hand.shutdown(wait=True, cancel_futures=True)
         self.store.close()
 
 
@@ -105,6 +107,7 @@ def warm() -> None:
     ink = Ink((Stroke([[0, 0], [90, 2], [180, 0]]), Stroke([[0, 50], [40, 52], [90, 49]])))
     for name in (GESTURES, READER):
         interpret(ink, rival(name))
+    handwriting(ink)
     block = Component(Polygon([[100, 300], [400, 300], [400, 100]]), (), "B", fixed=True)
     ball = Component(Circle((250, 120), 30), (), "A")
     bob = Component(Circle((20, 300), 15), (), "C")

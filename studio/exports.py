@@ -7,20 +7,22 @@ from dataclasses import replace
 from typing import Literal, assert_never
 
 from evaluation.pictures import animation
-from physics.pipeline import move
+from physics.pipeline import Motion, move
 from sketch import svg
 from sketch.files import document, inkml
 from sketch.page import Sketch
 from studio.board import Board, titled
+from studio.film import film
 from studio.limits import Refused
 from studio.view import Shown
 
-Kind = Literal["inklined", "inkml", "svg", "gif"]
+Kind = Literal["inklined", "inkml", "svg", "gif", "mp4"]
 MEDIA: dict[Kind, str] = {
     "inklined": "application/json",
     "inkml": "application/inkml+xml",
     "svg": "image/svg+xml",
     "gif": "image/gif",
+    "mp4": "video/mp4",
 }
 THUMBNAIL = 240.0
 """Pixels wide."""
@@ -38,11 +40,17 @@ def exported(what: Shown, kind: Kind, seconds: float) -> bytes:
         case "svg":
             return svg.draw(what.sketch, 960.0).encode()
         case "gif":
-            if not board.sketch.components:
-                raise Refused("nothing on this page has been read that could move: Analyze first")
-            return animation(move(board.sketch, seconds, without=board.without), seconds)
+            return animation(_moved(board, seconds), seconds)
+        case "mp4":
+            return film(_moved(board, seconds), seconds)
         case _:
             assert_never(kind)
+
+
+def _moved(board: Board, seconds: float) -> Motion:
+    if not board.sketch.components:
+        raise Refused("nothing on this page has been read that could move: Analyze first")
+    return move(board.sketch, seconds, without=board.without)
 
 
 def thumbnail(sketch: Sketch) -> str:

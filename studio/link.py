@@ -68,7 +68,7 @@ class Link:
         except WebSocketDisconnect:
             pass
         finally:
-            self._session.listeners.discard(self)
+            self._session.leave(self)
             self._desk.connected.discard(self)
             self._halt()
             writing.cancel()

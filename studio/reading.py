@@ -7,23 +7,24 @@ associated with it. Frame: page units, y down.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
 from physics.formula.expected import expected
-from recognizer.claims import Recognizer
+from recognizer.claims import Grouping, Recognizer
+from recognizer.handwriting.reader import Reading as HandReading
 from recognizer.handwriting.roster import reader_of
 from recognizer.interpret import Note, interpret
 from recognizer.roster import ROSTER, recognizer
 from sketch.files import document
-from sketch.formula.lexer import FormulaError
+from sketch.formula.lexer import FormulaError, decimals
 from sketch.formula.parse import expression, parse
 from sketch.formula.print import plain
 from sketch.ink import Ink
 from sketch.page import Association, Component, Expression, Sketch, label
 from studio.actions import Read
-from studio.board import Board
+from studio.board import Board, unread
 from studio.limits import Refused
 
 READER = "learned"
@@ -50,9 +51,12 @@ HandReader = Callable[[Ink], Reading | None]
 
 def handwriting(line: Ink) -> Reading | None:
     """What a line of ink says, in the way that people type it, where it is likelier right than not and a formula."""
-    said = reader_of("net").read(line.strokes, prior=expected)
-    if said.confidence < SURE:
-        return None
+    said = as_typed(reader_of("net").read(line.strokes, prior=expected))
+    return said if said is not None and said.confidence >= SURE else None
+
+
+def as_typed(said: HandReading) -> Reading | None:
+    """A reading in the way that people type it; None where the likeliest is no formula."""
     texts = [_typed(text) for text in (said.text, *(latex for latex, _ in said.alternatives))]
     if texts[0] is None:
         return None
@@ -63,7 +67,7 @@ def handwriting(line: Ink) -> Reading | None:
 def _typed(text: str) -> str | None:
     """A formula as it is typed; None for what is none."""
     try:
-        return plain(parse(text))
+        return plain(parse(text), decimals(text))
     except FormulaError:
         return None
 
@@ -80,13 +84,21 @@ def rival(name: str) -> Recognizer:
     return recognizer(name)
 
 
-def analyzed(board: Board, name: str = READER, anew: bool = False, reader: HandReader | None = None) -> Read:
-    """The page as it is read now, as an action. anew: components that are there may be read otherwise."""
+def reader() -> Grouping:
+    """Who reads a page when nobody else is named."""
+    found = rival(READER)
+    assert isinstance(found, Grouping)
+    return found
+
+
+def analyzed(board: Board, name: str = READER, anew: bool = False, hand: HandReader | None = None) -> Read:
+    """The page as it is read now, as an action. anew: components that are there may be read otherwise; hand: who reads
+    handwriting."""
     old = board.sketch
     notes = [Note(line.text, line.at) for line in old.expressions if line.text is not None]
     found = interpret(old.ink, rival(name), notes)
     meant = _merged(old, found, anew)
-    read = reader or HAND_READER
+    read = hand or HAND_READER
     meant = replace(meant, expressions=tuple(_read(old.ink, line, read) for line in meant.expressions))
     return Read(document.dumps_meaning(meant), name)
 
@@ -96,9 +108,9 @@ def _merged(old: Sketch, found: Sketch, anew: bool) -> Sketch:
     same = _same(old, found)
     kept = () if anew else old.components
     taken = {stroke for part in kept for stroke in part.strokes}
-    fresh = [part for part in found.components if not (taken and taken.intersection(part.strokes))]
-    if anew:
-        fresh = list(found.components)
+    if not anew:  # what is a formula stays one, though its signs may look like things
+        taken |= {stroke for line in old.expressions if line.text is not None for stroke in line.strokes}
+    fresh = [part for part in found.components if not taken.intersection(part.strokes)]
     names = _names(old, found, same, anew)
     parts = [*kept]
     for part in fresh:
@@ -146,18 +158,23 @@ def _names(old: Sketch, found: Sketch, same: dict[str, Component], anew: bool) -
 
 
 def _lines(old: Sketch, found: Sketch, drawn: set[int]) -> tuple[Expression, ...]:
-    """The formulas that were there, in their order, each with the ink that now stands where it stands; then new lines."""
+    """The formulas that were there, in their order, each with its ink and what has been written on to it since, which
+    is why it is to be read again (row R4); then new lines."""
     used = set(drawn)
+    loose = {stroke for stroke, kind in enumerate(old.kinds()) if kind is None}
     lines: list[Expression] = []
 
-    def take(line: Expression, strokes: tuple[int, ...]) -> None:
+    def take(line: Expression, strokes: Sequence[int]) -> None:
         own = tuple(stroke for stroke in strokes if stroke not in used)
         used.update(own)
         lines.append(replace(line, strokes=own))
 
     for line in old.expressions:
         match = next((other for other in found.expressions if _is(other, line)), None)
-        take(line, match.strokes if match is not None and match.strokes else line.strokes)
+        now = () if match is None else match.strokes
+        if line.strokes:  # with it belongs what nobody has read, and nothing of another line's
+            now = sorted({*line.strokes, *(loose.intersection(now) if set(now) & set(line.strokes) else ())})
+        take(unread(line) if line.strokes and set(now) - used != set(line.strokes) else line, now)
     for line in found.expressions:
         if line.text is None and not used.issuperset(line.strokes):
             take(line, line.strokes)

@@ -7,7 +7,7 @@ from collections.abc import AsyncGenerator
 from contextlib import asynccontextmanager
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from fastapi import FastAPI, Query, Request, Response, WebSocket
 from fastapi.responses import JSONResponse
@@ -15,7 +15,7 @@ from pydantic import BaseModel, Field
 from starlette.staticfiles import StaticFiles
 
 from sketch.files.errors import FileError
-from sketch.formula.mathml import mathml
+from sketch.formula import mathml
 from sketch.formula.parse import expression
 from studio import examples, exports
 from studio.actions import Title
@@ -170,7 +170,7 @@ def _pages(app: FastAPI) -> None:
     async def formula(text: Annotated[str, Query(min_length=1, max_length=LIMITS.formula)]) -> Formula:
         """How a typed formula is read: MathML, or what is wrong with it."""
         read = await asyncio.to_thread(expression, text)
-        return Formula(mathml=None if read.tree is None else mathml(read.tree), problem=read.problem)
+        return Formula(mathml=mathml.shown(read), problem=read.problem)
 
     @app.get("/api/examples")
     async def every_example() -> list[Example]:
@@ -209,9 +209,9 @@ def _files(app: FastAPI) -> None:
 
     @app.get("/api/pages/{page}/export", response_class=Response)
     async def export(
-        request: Request, page: PageId, kind: Literal["inklined", "inkml", "svg", "gif"], seconds: Annotated[float, Query(ge=0.1, le=10)] = 3.0
+        request: Request, page: PageId, kind: exports.Kind, seconds: Annotated[float, Query(ge=0.1, le=10)] = 3.0
     ) -> Response:  # fmt: skip
-        """A page as a file: .inklined (everything), .inkml (ink), .svg (a picture), .gif (its motion)."""
+        """A page as a file: .inklined (everything), .inkml (ink), .svg (a picture), .gif and .mp4 (its motion)."""
         session = await _desk(request).session(page)
         made = await asyncio.get_running_loop().run_in_executor(
             _desk(request).runs, exports.exported, session.shown, kind, seconds

@@ -11,6 +11,7 @@ import logging
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
+from functools import partial
 from typing import Any, Protocol, TypeVar
 
 from physics.verify.verdict import verify
@@ -20,12 +21,15 @@ from studio.board import Board, titled
 from studio.gestures import understood, with_lines
 from studio.history import REDO, UNDO, remembered
 from studio.limits import LIMITS, Refused
-from studio.reading import GESTURES, analyzed, rival
+from studio.live import Live, begun, live_json, read_on, reader_from
+from studio.reading import GESTURES, analyzed, reader, rival
 from studio.store import Entry, Penned, Store
 from studio.view import Json, Shown, shown, state, stroke_json, verdict_json
 
 LOG = logging.getLogger("inklined.studio")
 T = TypeVar("T")
+LINE = 0.25
+"""Seconds that Analyze waits for what is being read already: longer than a line takes, where nobody else is at it."""
 
 
 class Listener(Protocol):
@@ -38,9 +42,15 @@ class Session:
     """A page that is open. Made by `Session.opened`; used in one event loop."""
 
     def __init__(
-        self, page: str, store: Store, work: Executor, penned: dict[str, Penned], entries: list[Entry]
+        self,
+        page: str,
+        store: Store,
+        work: Executor,
+        hand: Executor,
+        penned: dict[str, Penned],
+        entries: list[Entry],
     ) -> None:
-        self.page, self._store, self._work = page, store, work
+        self.page, self._store, self._work, self._hand = page, store, work, hand
         self._penned = penned
         self._keys = {entry.key for entry in entries}
         self._history = remembered([entry.text for entry in entries], self._stroke)
@@ -49,14 +59,19 @@ class Session:
         self.listeners: set[Listener] = set()
         self._judging: asyncio.Task[None] | None = None
         self._verdicts: Json | None = None
+        self._live: Live | None = None
+        self._told_live: Json | None = None
+        self._reading: asyncio.Task[None] | None = None
+        self._unread = False
 
     @classmethod
-    async def opened(cls, page: str, store: Store, work: Executor) -> Session:
-        """The page from the notebook. Raises Refused where there is none."""
+    async def opened(cls, page: str, store: Store, work: Executor, hand: Executor) -> Session:
+        """The page from the notebook; work: who does what browsers wait for; hand: who reads handwriting as it is
+        written, which nobody waits for. Raises Refused where there is no such page."""
 
         def read() -> Session:
             store.page(page)
-            return cls(page, store, work, store.strokes(page), store.log(page))
+            return cls(page, store, work, hand, store.strokes(page), store.log(page))
 
         return await _in(work, read)
 
@@ -79,6 +94,16 @@ class Session:
             listener.tell(self._verdicts)
         elif self._judging is None:
             self._judge()
+        if self._told_live is not None:
+            listener.tell(self._told_live)
+        if self._live is None or self._unread:
+            self._read_on()
+
+    def leave(self, listener: Listener) -> None:
+        """A browser has gone; where it was the last one, what was read while it wrote is let go."""
+        self.listeners.discard(listener)
+        if not self.listeners:
+            self._live = self._told_live = None
 
     def state(self) -> Json:
         """All that a browser needs to know but for the points of strokes."""
@@ -123,6 +148,7 @@ class Session:
                     {"type": "drawn", "id": key, **told, "stroke": drawn},
                     sender,
                 )
+                self._read_on()
             else:
                 if isinstance(action, Draw):
                     self._tell({"type": "strokes", "strokes": self._strokes_json([key])})
@@ -148,7 +174,10 @@ class Session:
                 board = self.board
                 if not board.names:
                     raise Refused("there is no ink on this page to be read; draw something first")
-                action = await _in(self._work, lambda: analyzed(board, recognizer, anew))
+                if self._reading is not None:  # it is reading what is to be read here
+                    await asyncio.wait({self._reading}, timeout=LINE)
+                hand = None if self._live is None else reader_from(self._live)
+                action = await _in(self._work, lambda: analyzed(board, recognizer, anew, hand))
                 await self._take(key, action)
                 await self._changed()
             return self._ack(key, "done", self._counted())
@@ -196,8 +225,31 @@ class Session:
         board = self.board
         self._shown = await _in(self._work, lambda: shown(board))
         self._tell(self.state())
+        self._read_on()
         if judge:
             self._judge()
+
+    def _read_on(self) -> None:
+        """Has what is being written read while nobody waits for it; strokes that come meanwhile are read after it,
+        all at once."""
+        self._unread = True
+        if self._reading is None and self.listeners:
+            self._reading = asyncio.create_task(self._reads())
+
+    async def _reads(self) -> None:
+        try:
+            while self._unread:
+                self._unread = False
+                board, before = self.board, self._live
+                self._live = await _in(self._hand, partial(_read_on, before, board))
+                told = live_json(self._live)
+                if told != self._told_live:
+                    self._told_live = told
+                    self._tell(told)
+        except Exception:
+            LOG.exception("what is written on page %s could not be read", self.page)
+        finally:
+            self._reading = None
 
     def _judge(self) -> None:
         """Has the answers on the page judged, and tells everybody, unless the page has changed by then."""
@@ -240,6 +292,10 @@ class Session:
         parts, unread = len(sketch.components), sum(line.text is None for line in sketch.expressions)
         said = f"{parts} thing{'' if parts == 1 else 's'} found"
         return f"{said}, {unread} formula{'' if unread == 1 else 's'} to be typed." if unread else f"{said}."
+
+
+def _read_on(before: Live | None, board: Board) -> Live:
+    return read_on(before or begun(), board, reader())
 
 
 async def _in(work: Executor, job: Callable[[], T]) -> T:

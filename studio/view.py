@@ -13,7 +13,7 @@ from typing import Any, assert_never
 from physics.build import build
 from physics.rectify import Correction, Rectified, rectify
 from physics.verify.verdict import Verdict
-from sketch.formula.mathml import mathml
+from sketch.formula import mathml
 from sketch.page import Expression, Sketch
 from sketch.shapes import Arrow, Circle, Polygon, Shape, Spring, Wire
 from studio.board import Board, loose, titled
@@ -95,7 +95,7 @@ def _line(board: Board, number: int, line: Expression) -> Json:
     return {
         "line": number,
         "text": line.text,
-        "mathml": None if line.tree is None else mathml(line.tree),
+        "mathml": mathml.shown(line),
         "problem": line.problem,
         "at": line.at,
         "strokes": [board.names[stroke] for stroke in line.strokes],

@@ -25,7 +25,7 @@ from recognizer.handwriting.line import Group, Line, box_of, groups, line_of, sp
 from recognizer.handwriting.relations import Relations, place
 from recognizer.handwriting.segment import Covering, coverings
 from recognizer.handwriting.signs import COUNT, SignReader
-from sketch.formula.lexer import FormulaError
+from sketch.formula.lexer import FormulaError, decimals
 from sketch.formula.mathml import mathml
 from sketch.formula.parse import parse
 from sketch.ink import FloatArray, Stroke
@@ -95,7 +95,7 @@ class Reading:
     def mathml(self) -> str | None:
         """Its MathML, None where it is no formula."""
         tree = self.tree
-        return None if tree is None else mathml(tree)
+        return None if tree is None else mathml(tree, decimals(self.text))
 
 
 NOTHING = Reading((), "", 0.0, ())

@@ -63,6 +63,11 @@ class Session:
                 raise KeyError(f"there is no stroke {key}")
         return self._read({key: stroke for key, stroke in self.strokes.items() if key not in set(keys)})
 
+    def holding(self, strokes: Mapping[int, Stroke]) -> Session:
+        """The session of a page that holds just these strokes now: a line whose strokes are the same objects as
+        before is not read again."""
+        return self._read(strokes)
+
     def _read(self, strokes: Mapping[int, Stroke]) -> Session:
         keys = list(strokes)
         ink = Ink(tuple(strokes[key] for key in keys))

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Literal
 
 from sketch.formula.names import COMMANDS, FUNCTION_ALIASES, LETTERS, UNIT_WORDS, words
@@ -125,6 +126,13 @@ def tokens(text: str) -> list[Token]:
         found.extend(new)
         at = new[-1].end if new else _end_of_command(text, at)
     return [*found, Token("end", "", len(text), len(text))]
+
+
+def decimals(text: str) -> frozenset[Fraction]:
+    """The numbers that a formula writes with a point: a person who writes 0.5 is to see 0.5 again, though the
+    tree holds 1/2. Raises FormulaError as `tokens` does."""
+    numbers = (token.value.lower().partition("e")[0] for token in tokens(text) if token.kind == "number")
+    return frozenset(Fraction(digits) for digits in numbers if "." in digits)
 
 
 def _tokens_at(text: str, at: int) -> Iterator[Token]:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
 
 from sympy.core.basic import Basic
 
+from sketch.formula.lexer import decimals
 from sketch.formula.names import LETTERS
 from sketch.formula.print import PRODUCT, Notation, Piece, name_parts, write
+from sketch.page import Expression
 
 _GREEK: dict[str, str] = {}
 for _letter, _name in LETTERS.items():
@@ -22,9 +26,18 @@ _ONE_NAME = re.compile(r"<mi>[^<]*</mi>|<msub>(?:(?!<msub>).)*</msub>")
 _SUBSCRIPT = re.compile(r"[0-9]+|[A-Za-z]+")
 
 
-def mathml(tree: Basic) -> str:
-    """The formula as a `math` element. Raises ValueError for what is not of the formula language."""
-    return f'<math xmlns="http://www.w3.org/1998/Math/MathML">{_row(write(tree, MATHML).text)}</math>'
+def mathml(tree: Basic, pointed: frozenset[Fraction] = frozenset()) -> str:
+    """The formula as a `math` element; pointed: the numbers that are written with a point (see `lexer.decimals`). Raises ValueError for what is not of the
+    formula language."""
+    inner = write(tree, replace(MATHML, decimals=pointed)).text
+    return f'<math xmlns="http://www.w3.org/1998/Math/MathML">{_row(inner)}</math>'
+
+
+def shown(line: Expression) -> str | None:
+    """A page's formula as a `math` element, its decimals as they were written; None for what is no formula."""
+    if line.tree is None or line.text is None:
+        return None
+    return mathml(line.tree, decimals(line.text))
 
 
 def _row(inner: str) -> str:

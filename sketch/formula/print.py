@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 
@@ -40,7 +40,8 @@ class Notation:
     """number, symbol (of a canonical name) → text; product: factors → text; units: their product, and
     a number with them; fraction, root and call put their parts into a template.
 
-    minus, plus, equals, comma: between parts; negative: before a part, and never within one.
+    minus, plus, equals, comma: between parts; negative: before a part, and never within one;
+    decimals: sizes of numbers that are written with a point, though they would look well as fractions.
     """
 
     number: Callable[[str], str]
@@ -59,16 +60,18 @@ class Notation:
     equals: str = " = "
     comma: str = ", "
     negative: str = "-"
+    decimals: frozenset[Fraction] = frozenset()
 
 
-def plain(tree: Basic) -> str:
-    """The formula in ASCII as typed on a keyboard: `f_1 = |W|*cos(theta)`."""
-    return write(tree, _PLAIN).text
+def plain(tree: Basic, decimals: frozenset[Fraction] = frozenset()) -> str:
+    """The formula in ASCII as typed on a keyboard: `f_1 = |W|*cos(theta)`. decimals (see `lexer.decimals`): what
+    somebody wrote as 0.5 is 0.5 again, not 1/2, which is the same number."""
+    return write(tree, replace(_PLAIN, decimals=decimals)).text
 
 
-def latex(tree: Basic) -> str:
-    """The formula in LaTeX: `f_{1} = \\left|W\\right| \\cos\\left(\\theta\\right)`."""
-    return write(tree, _LATEX).text
+def latex(tree: Basic, decimals: frozenset[Fraction] = frozenset()) -> str:
+    """The formula in LaTeX: `f_{1} = \\left|W\\right| \\cos\\left(\\theta\\right)`. decimals as of `plain`."""
+    return write(tree, replace(_LATEX, decimals=decimals)).text
 
 
 def write(tree: Basic, notation: Notation) -> Piece:
@@ -84,7 +87,7 @@ def write(tree: Basic, notation: Notation) -> Piece:
         case sympy.Symbol():
             return Piece(notation.symbol(tree.name), ATOM)
         case sympy.Rational():
-            return _number(Fraction(int(tree.p), int(tree.q)), notation)
+            return _number(_exact(tree), notation)
         case sympy.Float():
             return _number(Fraction(str(tree)), notation)
         case sympy.Add():
@@ -104,8 +107,12 @@ def write(tree: Basic, notation: Notation) -> Piece:
             raise ValueError(f"{tree} ({type(tree).__name__}) is not part of the formula language")
 
 
+def _exact(number: sympy.Rational) -> Fraction:
+    return Fraction(int(number.p), int(number.q))
+
+
 def _number(number: Fraction, notation: Notation) -> Piece:
-    decimal = _decimal(abs(number))
+    decimal = _decimal(abs(number), abs(number) in notation.decimals)
     if decimal is not None:
         return _signed(Piece(notation.number(decimal), ATOM), number, notation)
     over, under = (_whole(part, notation) for part in number.as_integer_ratio())
@@ -143,7 +150,7 @@ def _product(factors: Sequence[Basic], notation: Notation) -> Piece:
     below: list[Piece] = []
     for factor in sorted(factors, key=_rank):
         if isinstance(factor, sympy.Rational):
-            coefficient *= Fraction(int(factor.p), int(factor.q))
+            coefficient *= _exact(factor)
         elif isinstance(factor, sympy.Pow) and _is_negative_number(factor.exp):
             below.append(_raised(factor.base, -factor.exp, notation))
         else:
@@ -239,7 +246,7 @@ def _power(tree: sympy.Pow, notation: Notation) -> Piece:
 def _raised(base: Basic, exponent: Basic, notation: Notation) -> Piece:
     if exponent == 1:
         return write(base, notation)
-    if isinstance(exponent, sympy.Rational) and exponent.p == 1:
+    if isinstance(exponent, sympy.Rational) and exponent.p == 1 and _exact(exponent) not in notation.decimals:
         return Piece(
             notation.root(write(base, notation).text, int(exponent.q)), ATOM if exponent.q == 2 else POWER
         )
@@ -268,12 +275,13 @@ def _is_negative_number(tree: Basic) -> bool:
     return isinstance(tree, sympy.Rational) and tree < 0
 
 
-def _decimal(number: Fraction) -> str | None:
-    """The number as a terminating decimal (whole numbers too), None when it is better a fraction."""
+def _decimal(number: Fraction, wanted: bool) -> str | None:
+    """The number as a terminating decimal (whole numbers too), None when it is better a fraction; wanted: a
+    fraction would not be better, whatever it is."""
     if number.denominator == 1:
         return str(number.numerator)
     places = next((n for n in range(1, _DECIMAL_PLACES + 1) if 10**n % number.denominator == 0), None)
-    if places is None or number.denominator < _DECIMAL_FROM:
+    if places is None or (number.denominator < _DECIMAL_FROM and not wanted):
         return None
     digits = str(int(number * 10**places)).rjust(places + 1, "0")
     return f"{digits[:-places]}.{digits[-places:]}"

@@ -9,9 +9,9 @@ from hypothesis import assume, example, given, settings
 from strategies import trees
 from sympy.core.basic import Basic
 
-from sketch.formula.mathml import mathml
+from sketch.formula.mathml import mathml, shown
 from sketch.formula.names import LETTERS
-from sketch.formula.parse import FormulaError, parse
+from sketch.formula.parse import FormulaError, expression, parse
 
 NAMESPACE = "{http://www.w3.org/1998/Math/MathML}"
 SIGNS = {"−": "-", "·": "*", "\u2062": "*", "\u2061": "", "∑": "sum ", "°": "°"}
@@ -78,3 +78,9 @@ def test_mathml_reads_back_as_the_same_tree(tree: Basic) -> None:
 )
 def test_mathml_is_what_a_browser_shows(text: str, holds: str) -> None:
     assert holds in mathml(parse(text))
+
+
+def test_a_line_of_a_page_shows_its_decimals_as_they_were_written_and_nothing_where_it_is_no_formula() -> None:
+    assert "<mn>0.5</mn>" in (shown(expression("mu = 0.5")) or "")
+    assert "<mfrac>" in (shown(expression("mu = 1/2")) or "")
+    assert shown(expression("((")) is None

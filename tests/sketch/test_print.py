@@ -8,6 +8,7 @@ from hypothesis import assume, given, settings
 from strategies import trees
 from sympy.core.basic import Basic
 
+from sketch.formula.lexer import decimals
 from sketch.formula.parse import LIMITS, parse
 from sketch.formula.print import latex, plain
 
@@ -62,3 +63,23 @@ def test_what_is_no_formula_is_not_written() -> None:
         plain(sympy.Matrix([[1]]))
     with pytest.raises(ValueError, match="not part of the formula language"):
         latex(sympy.zoo)
+
+
+@pytest.mark.parametrize(
+    ("text", "typed", "typeset"),
+    [
+        ("mu = 0.5", "mu = 0.5", r"\mu = 0.5"),
+        ("theta = 0.25 rad", "theta = 0.25 rad", r"\theta = 0.25\,\mathrm{rad}"),
+        ("E = .5 m v^2", "E = 0.5*m*v^2", "E = 0.5m v^{2}"),
+        ("x = -1.5 + y^0.5", "x = y^0.5 - 1.5", "x = y^{0.5} - 1.5"),
+        ("f = (0.5, 1/2)", "f = (0.5, 0.5)", r"f = \left(0.5, 0.5\right)"),
+        ("E = 1/2 m v^2", "E = m*v^2/2", r"E = \frac{m v^{2}}{2}"),
+    ],
+)
+def test_what_was_written_as_a_decimal_is_shown_as_one_and_is_the_same_number(
+    text: str, typed: str, typeset: str
+) -> None:
+    tree, written = parse(text), decimals(text)
+    assert plain(tree, written) == typed
+    assert latex(tree, written) == typeset
+    assert parse(typed) == tree

@@ -190,11 +190,11 @@ def test_a_reader_of_handwriting_is_given_each_unread_line_once() -> None:
         seen.append(line)
         return Reading("m = 3", 0.7, ("m = 8",))
 
-    once = done(board, analyzed(board, "learned", reader=reader), STROKES.__getitem__)
+    once = done(board, analyzed(board, "learned", hand=reader), STROKES.__getitem__)
     assert [line.text for line in once.sketch.expressions] == ["m = 3"] * len(truth.expressions)
     assert [line.alternatives for line in once.sketch.expressions] == [("m = 8",)] * len(truth.expressions)
     assert len(seen) == len(truth.expressions)
-    analyzed(once, "learned", reader=reader)
+    analyzed(once, "learned", hand=reader)
     assert len(seen) == len(truth.expressions)
 
 

@@ -10,9 +10,11 @@ import socket
 import ssl
 import urllib.error
 import urllib.request
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+import av
 import numpy as np
 import pytest
 from hypothesis.errors import Unsatisfiable
@@ -136,7 +138,7 @@ JUNK = (
 def refusal(one: Client) -> str:
     """What the next error says; the page's own news may come before it."""
     while (heard := one.hear())["type"] != "error":
-        assert heard["type"] in ("verdicts", "status", "state"), heard
+        assert heard["type"] in ("verdicts", "status", "state", "live"), heard
     return heard["message"]
 
 
@@ -194,6 +196,17 @@ def test_another_site_another_name_and_too_large_a_page_are_refused(studio: Serv
         gone.recv(PATIENCE)
 
 
+def films(data: bytes, seconds: float) -> None:
+    """Reads an MP4 file back: H.264, as long as was asked for, and something moves in it."""
+    with av.open(BytesIO(data)) as file:
+        (video,) = file.streams.video
+        assert video.codec_context.name == "h264"
+        shown = [frame.to_ndarray(format="gray").astype(int) for frame in file.decode(video)]
+    assert len(shown) == round(30 * seconds) + 1
+    assert np.abs(shown[-1] - shown[0]).max() > 50
+    assert np.abs(shown[1] - shown[0]).mean() < np.abs(shown[-1] - shown[0]).mean()
+
+
 def test_examples_files_and_pictures_come_over_http(studio: Served) -> None:
     status, made = asked(f"{studio.url}/api/examples/pendulum", "POST")
     assert status == 201
@@ -202,6 +215,7 @@ def test_examples_files_and_pictures_come_over_http(studio: Served) -> None:
     exported = urllib.request.urlopen(f"{base}/export?kind=inklined").read()
     assert document.loads(exported.decode()).components
     assert urllib.request.urlopen(f"{base}/export?kind=gif&seconds=0.4").read()[:4] == b"GIF8"
+    films(urllib.request.urlopen(f"{base}/export?kind=mp4&seconds=0.5").read(), 0.5)
     status, again = asked(f"{studio.url}/api/open?name=mine.inklined", "POST", exported)
     assert status == 201 and again["title"] == "mine"
     assert again["id"] in [one["id"] for one in asked(f"{studio.url}/api/pages?words=mine")[1]]

@@ -65,7 +65,6 @@ keys({
   contest: () => studio.contestMode(!studio.contest.on), notebook: () => void notebook.show(studio.pageId), help: () => help.showModal(),
 });
 
-at("paper").addEventListener("pointermove", (event) => { if (studio.contest.on) studio.claimsAt(event.clientX, event.clientY); });
 addEventListener("dragover", (event) => event.preventDefault());
 addEventListener("drop", (event) => {
   event.preventDefault();

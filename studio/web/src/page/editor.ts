@@ -1,12 +1,14 @@
 // A small editor for one formula: typed text, read live, with the alternatives and what it is said of.
 
 import { api } from "../wire/api";
-import type { Association, Line, Point, State } from "../wire/protocol";
+import type { Point, State } from "../wire/protocol";
 import { el, formula } from "../ui/dom";
+import type { Chip } from "./formulas";
 import { middle } from "./page";
 
 export interface Asks {
-  write(line: number | null, text: string, at: Point | null): void;
+  /** strokes: the ink that says so, where it is no line of the page yet. */
+  write(line: number | null, text: string, at: Point | null, strokes: string[]): void;
   erase(line: number): void;
   associate(line: number, component: string, anchor: Point): void;
   dissociate(line: number, component: string): void;
@@ -24,27 +26,29 @@ export class Editor {
     this.box = null;
   }
 
-  /** line: the one to be edited, null for a new one at a place on the page; x, y: where on the screen. */
-  show(state: State, line: Line | null, at: Point, x: number, y: number): void {
+  /** chip: the formula to be edited, null for a new one at a place on the page; x, y: where on the screen. */
+  show(state: State, chip: Chip | null, at: Point, x: number, y: number): void {
     this.close();
     const input = el("input", {
-      type: "text", class: "formula-text", value: line?.text ?? "", autocomplete: "off", autocapitalize: "off", spellcheck: "false",
+      type: "text", class: "formula-text", value: chip?.text ?? "", autocomplete: "off", autocapitalize: "off", spellcheck: "false",
       maxlength: 1000, "aria-label": "Formula, in LaTeX or plain typing", placeholder: "m = 2 kg",
     });
     const shown = el("output", { class: "preview", "aria-live": "polite" });
     const submit = (): void => {
       const text = input.value.trim();
-      if (text && text !== line?.text) this.asks.write(line?.line ?? null, text, line ? null : at);
+      const there = chip !== null && chip.line !== null;
+      if (text && (text !== chip?.text || chip.live)) this.asks.write(chip?.line ?? null, text, there ? null : at, there ? [] : chip?.strokes ?? []);
       this.close();
     };
     const box = el("form", { class: "editor", onsubmit: (event: Event) => { event.preventDefault(); submit(); } },
-      el("label", {}, line ? "This says" : "New formula", input), shown);
-    if (line?.alternatives.length) box.append(this.alternatives(line, input));
-    if (line) box.append(this.saidOf(state, line));
+      el("label", {}, chip ? "This says" : "New formula", input), shown);
+    const line = chip?.line ?? null;
+    if (chip?.alternatives.length) box.append(this.alternatives(chip, input));
+    if (line !== null) box.append(this.saidOf(state, line));
     box.append(el("div", { class: "row" },
       el("button", { type: "submit", class: "primary" }, "OK"),
       el("button", { type: "button", onclick: () => this.close() }, "Cancel"),
-      line && el("button", { type: "button", class: "erase", onclick: () => { this.asks.erase(line.line); this.close(); } }, "Erase")));
+      line !== null && el("button", { type: "button", class: "erase", onclick: () => { this.asks.erase(line); this.close(); } }, "Erase")));
     box.addEventListener("keydown", (event) => { if (event.key === "Escape") { event.stopPropagation(); this.close(); } });
     let asked = 0;
     const preview = async (): Promise<void> => {
@@ -65,14 +69,14 @@ export class Editor {
     void preview();
   }
 
-  private alternatives(line: Line, input: HTMLInputElement): HTMLElement {
+  private alternatives({ alternatives }: Chip, input: HTMLInputElement): HTMLElement {
     return el("div", { class: "row", role: "group", "aria-label": "It may also say" },
-      ...line.alternatives.slice(0, 5).map((text) =>
+      ...alternatives.slice(0, 5).map((text) =>
         el("button", { type: "button", onclick: () => { input.value = text; input.dispatchEvent(new Event("input")); } }, text)));
   }
 
-  private saidOf(state: State, line: Line): HTMLElement {
-    const mine = state.associations.filter((one: Association) => one.line === line.line);
+  private saidOf(state: State, line: number): HTMLElement {
+    const mine = state.associations.filter((one) => one.line === line);
     const choice = el("select", { "aria-label": "Say it of" }, el("option", { value: "" }, "say it of …"));
     for (const part of state.components) {
       const spots: [string, Point][] = "start" in part.shape
@@ -84,7 +88,7 @@ export class Editor {
     }
     choice.addEventListener("change", () => {
       const [label, x, y] = choice.value.split(" ");
-      if (label) this.asks.associate(line.line, label, [Number(x), Number(y)]);
+      if (label) this.asks.associate(line, label, [Number(x), Number(y)]);
       this.close();
     });
     return el("div", { class: "row said" },

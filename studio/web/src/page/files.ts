@@ -1,4 +1,4 @@
-// Saving: the server writes .inklined, InkML, SVG and GIF; a PNG is what is seen.
+// Saving: the server writes .inklined, InkML, SVG, GIF and MP4; a PNG is what is seen.
 
 import { api } from "../wire/api";
 import { el } from "../ui/dom";
@@ -8,6 +8,7 @@ const KINDS: [string, string][] = [
   ["inkml", "Ink (InkML)"],
   ["svg", "Picture (SVG)"],
   ["gif", "Motion of 3 s (GIF)"],
+  ["mp4", "Motion of 3 s (film, MP4)"],
 ];
 
 export function download(name: string, data: Blob | string, type = "text/plain"): void {

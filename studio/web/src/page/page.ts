@@ -1,7 +1,7 @@
 // What the browser knows of a page: the server's last word, and the strokes that it has not answered yet.
 
 import { boxOf, grown, union, type Box } from "../pen/camera";
-import type { Component, InkStroke, Line, Point, Shape, State, Verdict } from "../wire/protocol";
+import type { Component, Drawn, InkStroke, Line, LiveLine, Point, Shape, State, Verdict } from "../wire/protocol";
 
 export const EMPTY: State = {
   type: "state", page: "", seq: 0, title: "", name: "Untitled", analyzed: false, loose: 0, strokes: [], components: [],
@@ -12,20 +12,45 @@ export const EMPTY: State = {
 export class PageModel {
   state: State = EMPTY;
   verdicts: Verdict[] = [];
+  /** What is being written, as it read when the server looked last. */
+  live: LiveLine[] = [];
   readonly ink = new Map<string, InkStroke>();
   /** Strokes that the server has not answered, by key; shown as drawn until it says otherwise. */
   readonly pending = new Map<string, InkStroke>();
 
-  take(state: State): void {
-    this.state = state;
-    for (const { id } of state.strokes) this.pending.delete(id);
+  /** Another page is to come. */
+  empty(): void {
+    this.ink.clear();
+    this.pending.clear();
+    this.live = [];
+    this.verdicts = [];
   }
 
-  drawn(id: string, stroke: InkStroke | undefined): void {
+  take(state: State): void {
+    for (const { id } of state.strokes) {
+      const mine = this.pending.get(id);
+      if (mine) this.ink.set(id, mine);
+      this.pending.delete(id);
+    }
+    this.state = state;
+  }
+
+  /** A stroke, somebody's or one's own, is on the page. */
+  drawn({ id, stroke, seq, undo, redo, next, loose, name }: Drawn): void {
     const known = stroke ?? this.pending.get(id) ?? this.ink.get(id);
     if (known) this.ink.set(id, known);
     this.pending.delete(id);
     if (!this.state.strokes.some((one) => one.id === id)) this.state.strokes.push({ id, dx: 0, dy: 0, kind: null });
+    Object.assign(this.state, { seq, undo, redo, next, loose, name });
+  }
+
+  /** What is being written as far as it is still so: its ink is there, and nobody has read it as anything since. */
+  writing(): LiveLine[] {
+    const { strokes, components, lines } = this.state;
+    const there = new Set(strokes.map((one) => one.id));
+    for (const part of components) for (const id of part.strokes) there.delete(id);
+    const read = new Set(lines.filter((line) => line.text !== null).map((line) => [...line.strokes].sort().join()));
+    return this.live.filter((one) => one.strokes.every((id) => there.has(id)) && !read.has([...one.strokes].sort().join()));
   }
 
   component(label: string): Component | undefined { return this.state.components.find((part) => part.label === label); }
@@ -41,7 +66,23 @@ export class PageModel {
     return box && { left: box.left + placed.dx, right: box.right + placed.dx, top: box.top + placed.dy, bottom: box.bottom + placed.dy };
   }
 
-  lineBox(line: Line): Box | null { return union(line.strokes.map((id) => this.strokeBox(id))); }
+  /** Around the ink of a line, or of any strokes. */
+  lineBox(line: Line): Box | null { return this.inkBox(line.strokes); }
+  inkBox(strokes: string[]): Box | null { return union(strokes.map((id) => this.strokeBox(id))); }
+
+  /** The stroke that lies nearest to a place, within reach. */
+  nearest(at: Point, reach: number): string | null {
+    let best: string | null = null, least = reach;
+    for (const { id, dx, dy } of this.state.strokes) {
+      const points = this.ink.get(id)?.points ?? [];
+      for (let k = 0; k < points.length; k++) {
+        const a = points[Math.max(0, k - 1)]!, b = points[k]!;
+        const away = fromSegment([a[0] + dx, a[1] + dy], [b[0] + dx, b[1] + dy], at);
+        if (away < least) { least = away; best = id; }
+      }
+    }
+    return best;
+  }
 
   /** Around all that is selected, null where nothing is. */
   selectionBox(): Box | null {

@@ -1,7 +1,7 @@
 // Beside the page: what is on it, what was corrected, what is to be said of it. All of it can be walked by keyboard.
 
 import { el, formula } from "../ui/dom";
-import type { Component, Line } from "../wire/protocol";
+import type { Component, Line, LiveLine } from "../wire/protocol";
 import type { PageModel } from "./page";
 
 export interface PanelAsks {
@@ -39,6 +39,7 @@ export class Panel {
     const items = [
       ...components.map((part) => this.component(part)),
       ...lines.filter((line) => line.text !== null || line.strokes.length).map((line) => this.line(line)),
+      ...this.page.writing().map((line) => this.written(line)),
     ];
     const nothing = loose ? `${loose} stroke${loose === 1 ? "" : "s"} not read yet` : "Nothing yet";
     return [
@@ -80,6 +81,10 @@ export class Panel {
       }, line.mathml ? formula(line.mathml) : el("i", {}, line.text ?? "what does this say?"),
         el("span", { class: "faint" }, of.length ? ` of ${of.join(", ")}` : " for the whole page"),
         line.problem && el("span", { class: "why" }, line.problem)));
+  }
+
+  private written(line: LiveLine): HTMLElement {
+    return el("li", { class: "faint" }, line.sure ? "being written: " : "being written, not sure: ", line.mathml ? formula(line.mathml) : line.text);
   }
 
   private correctionList(): Node[] {

@@ -44,6 +44,7 @@ export class Pointers {
   }
 
   private down = (event: PointerEvent): void => {
+    if (event.target !== this.element) return; // what lies over the page, as the editor of a formula, has its own pointers
     const tool = event.pointerType === "pen" || event.pointerType === "touch" ? event.pointerType : "mouse";
     let part = this.palm.part(tool, event.timeStamp, Math.max(event.width, event.height), event.button, this.hand);
     const at = where(event, this.element);
@@ -132,6 +133,7 @@ export class Pointers {
   }
 
   private wheel = (event: WheelEvent): void => {
+    if (event.target !== this.element) return;
     event.preventDefault();
     const camera = this.says.camera();
     const box = this.element.getBoundingClientRect();

@@ -32,6 +32,11 @@ export interface Line {
   alternatives: string[];
 }
 
+/** A line that is being written, as it reads now. line: the page's line whose ink it is; sure: Analyze would take it. */
+export interface LiveLine {
+  strokes: string[]; line: number | null; text: string; mathml: string | null; sure: boolean; confidence: number; alternatives: string[];
+}
+
 export interface Association { line: number; component: string; anchor: Point }
 export interface Correction { rule: string; component: string; made: boolean; why: string[]; labels: string[] }
 export interface Verdict {
@@ -66,15 +71,18 @@ export interface Reading {
   run: RunHead | null; events?: Happening[]; rows: number; columns: number;
 }
 
+export interface Drawn {
+  type: "drawn"; id: string; stroke?: InkStroke; seq: number; undo: string | null; redo: string | null;
+  next: string; loose: number; name: string;
+}
+
 export type Told =
   | State
   | RunHead
   | { type: "status"; ready: boolean }
   | { type: "strokes"; strokes: InkStroke[] }
-  | {
-      type: "drawn"; id: string; stroke?: InkStroke; seq: number; undo: string | null; redo: string | null;
-      next: string; loose: number; name: string;
-    }
+  | Drawn
+  | { type: "live"; lines: LiveLine[] }
   | { type: "ack"; key: string; said: "drawn" | "lasso" | "scribble" | "tap" | "done"; words: string; seq: number }
   | { type: "verdicts"; seq: number; verdicts: Verdict[] }
   | { type: "end"; run: number; seconds: number; asked: number; told: string[]; observable: Record<string, string[]> }
