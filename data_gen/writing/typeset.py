@@ -12,10 +12,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from data_gen.glyphs.alphabet import shares, styles
 from data_gen.pen import draw_each
-from data_gen.writing.form import bent, curves, is_loop
-from data_gen.writing.habits import Habits, TypeRule, Usual
+from data_gen.writing.forming import sign_of
+from data_gen.writing.habits import Habits
 from sketch.geometry import bounding_box
 from sketch.ink import FloatArray, Ink, Stroke
 from sketch.writing.rows import Node, Row
@@ -226,7 +225,7 @@ def _node(node: Node, by: Habits) -> _Block:
 def _sign(node: Node, by: Habits, top: float, bottom: float, width: float | None) -> _Block:
     """The writer's way of the sign in its slot; size, proportions and baseline stray."""
     rng = by.rng
-    paths, aspect = _way(node.name, by)
+    paths, aspect = sign_of(node.name, by)
     size = float(np.exp(by["uneven"] * rng.standard_normal()))
     height = (bottom - top) * size
     if width is None:
@@ -236,52 +235,6 @@ def _sign(node: Node, by: Habits, top: float, bottom: float, width: float | None
     width *= size * float(np.exp(by.rule.aspect * rng.standard_normal()))
     y = bottom - height + by["jump"] * rng.standard_normal()
     return _Block([_Sign(node.strokes[0], node.name, paths, 0.0, y, width, height)], width, y, y + height)
-
-
-def _way(name: str, by: Habits) -> tuple[list[FloatArray], float]:
-    """The strokes of one way of writing the sign, filling the unit box, and its width over its height."""
-    rng = by.rng
-    usual = by.usual.get(name)
-    if usual is None or rng.random() < by.rule.other_way:
-        usual = _usual(name, rng, by.rule)
-        by.usual.setdefault(name, usual)
-    ways = styles(name)[usual.way]
-    freedom = by["freedom"]
-    own = bent([ways[k] for k in usual.order], freedom, np.random.default_rng(usual.hand), by.form)
-    paths = curves(bent(own, by.form.now * freedom, rng, by.form), rng, by.form)
-    paths = [path[::-1] if turned else path for path, turned in zip(paths, usual.turned, strict=True)]
-    if 1 < len(paths) < 4 and name not in ("=", "i", "j", "\\Vert") and rng.random() < by.rule.unlifted:
-        paths = [np.concatenate(paths)]
-    low, high = bounding_box(np.concatenate(paths))
-    size = high - low
-    box = np.where(size > 1e-6, size, 1.0)
-    spread = by.rule.shift if len(paths) > 1 else 0.0
-    unit = [
-        (path - low) / box + spread * rng.standard_normal(2) * np.where(size > 1e-6, 1.0, 0.0)
-        for path in paths
-    ]
-    return unit, float(size[0] / size[1]) if size[1] > 1e-6 else 10.0
-
-
-def _usual(name: str, rng: np.random.Generator, rule: TypeRule) -> Usual:
-    """Somebody's way of the sign."""
-    ways = styles(name)
-    known = shares(name)[: rule.ways]
-    way = int(rng.choice(len(known), p=known / known.sum()))
-    strokes = ways[way]
-    count = len(strokes)
-    order = rng.permutation(count) if count > 1 and rng.random() < rule.swapped else range(count)
-    chosen = tuple(map(int, order))
-    size = float(np.max(np.ptp(np.concatenate([points for points, _ in strokes]), axis=0)))
-    turned = tuple(bool(rng.random() < _backwards(strokes[k][0], size, rule)) for k in chosen)
-    return Usual(way, chosen, turned, int(rng.integers(1 << 62)))
-
-
-def _backwards(points: FloatArray, size: float, rule: TypeRule) -> float:
-    """The share of writers who draw such a stroke from its other end."""
-    if is_loop(points, size):
-        return rule.clockwise
-    return rule.backwards if len(points) == 2 else rule.reversed
 
 
 def _hung(node: Node, block: _Block, by: Habits) -> _Block:

@@ -80,7 +80,9 @@ def test_mathml_is_what_a_browser_shows(text: str, holds: str) -> None:
     assert holds in mathml(parse(text))
 
 
-def test_a_line_of_a_page_shows_its_decimals_as_they_were_written_and_nothing_where_it_is_no_formula() -> None:
+def test_a_line_of_a_page_shows_its_decimals_as_they_were_written_and_nothing_where_it_is_no_formula() -> (
+    None
+):
     assert "<mn>0.5</mn>" in (shown(expression("mu = 0.5")) or "")
     assert "<mfrac>" in (shown(expression("mu = 1/2")) or "")
     assert shown(expression("((")) is None
