@@ -44,6 +44,9 @@ ROUNDS = 12
 """Rounds of multipliers; only slipping takes more than two or three."""
 EXACT = 1e-13
 """m/s, and as a share of the greatest rate that was lacking: what is left of it."""
+LEFT = 1e-6
+"""The same at most where all rounds are over. Rows that contradict one another are never right: each round would
+press on them more, up to impulses whose rounding alone throws bodies off the page."""
 WRONG = 1e-10
 """m/s: a rate that is less than wanted by no more is right."""
 SLIPS = 0.999
@@ -101,10 +104,11 @@ def leap(
         filled(who, way, stiff, count, place, inverse, base, matrix)
         if not factorized(first, base, 3 * found, matrix):
             break
-        _multiply(
+        if not _multiply(
             real, whole, bars, jacobian, ends, inverse, contacts, vel, rub,
             state, who, source, way, stiff, count, place, first, base, found, matrix,
-        )  # fmt: skip
+        ):  # fmt: skip
+            break
         if not _revise(real, whole, bars, jacobian, ends, inverse, contacts, vel, rub, state, held):
             done = True
             break
@@ -192,11 +196,11 @@ def _multiply(
     base: IntArray,
     found: int,
     matrix: FloatArray,
-) -> None:
-    """Rounds of multipliers on the rows listed, until their rates are right."""
+) -> bool:
+    """Rounds of multipliers on the rows listed, until their rates are right; whether they are."""
     lacks, side = np.empty(count), np.empty(3 * found)
-    greatest = 0.0
-    for _ in range(ROUNDS):
+    greatest, lacked = 0.0, 0.0
+    for turn in range(ROUNDS + 1):
         worst = 0.0
         side[:] = 0.0
         for k in range(count):
@@ -213,8 +217,12 @@ def _multiply(
                 if i >= 0:
                     side[3 * i + q % 3] += stiff[k] * lacks[k] * way[k, q]
         greatest = max(greatest, worst)
+        if turn == 0:
+            lacked = worst
         if worst <= EXACT * (1.0 + greatest):
-            return
+            return True
+        if turn == ROUNDS:
+            return worst <= LEFT * (1.0 + lacked)
         solved(first, base, 3 * found, matrix, side)
         for k in range(count):
             gain = 0.0
@@ -238,6 +246,7 @@ def _multiply(
             if state[k] == FORTH or state[k] == BACK:
                 most = rub * real[MU, k] * max(real[PN, k], 0.0)
                 _rub(real, whole, inverse, k, most if state[k] == FORTH else -most, vel)
+    return False
 
 
 @part
