@@ -108,3 +108,9 @@ def test_rows_that_contradict_one_another_throw_nothing_off_the_page(index: int)
     motion = simulate(scene, 2.0)
     assert "robust" in motion.modes.values()
     assert faults(scene, motion) == []
+
+
+@pytest.mark.parametrize("index", [6084, 7871, 8392, 9377])
+def test_a_wire_that_tautens_and_slackens_again_within_a_step_does_not_stretch(index: int) -> None:
+    scene = scene_at(1, index)
+    assert faults(scene, simulate(scene, 2.0)) == []

@@ -23,6 +23,7 @@ from physics.engine.exact.machine import (
     kept,
     olds,
     poses,
+    row_of,
     slope,
     state,
     takes,
@@ -31,13 +32,17 @@ from physics.engine.exact.machine import (
 )
 from physics.engine.exact.touch import TOUCHING
 from physics.engine.exact.watch import LENGTH, decisions, excused, pair_gap, quickness, touched, watch
-from physics.engine.tables import pair_of
+from physics.engine.forces import ends_of
+from physics.engine.rows import CORD, ON
+from physics.engine.tables import link_of, pair_of
 from physics.jit import part
 
 REACHED, FULL, HAPPENED, MET, SWITCHED, STOPPED, CRAWLS = 0, 1, 2, 3, 4, 5, 6
 """Why `flow` came back: the time is reached; the record is full; a watched function crossed zero; two bodies
 meet; a formula takes another branch; a formula has no value; the motion is too fast to follow."""
 
+CORDS = 8
+"""Places within a step at which the slack of a slack wire is looked at."""
 SAMPLES = 256
 """Places within a step at which gaps are looked at, at most."""
 STEEP = 1e4
@@ -72,6 +77,11 @@ def first(w: Any, m: Any, t: float, h: float) -> tuple[int, float]:
     if met < share - 1e-12:
         now[AT] = pair
         code, share = MET, met
+    taut, cord = _tautens(w, m, t, h, share)
+    if taut < share - 1e-12:
+        hits(m)[:] = 0
+        hits(m)[cord] = 1
+        code, share = HAPPENED, taut
     if code != HAPPENED:
         hits(m)[:] = 0
     for _ in range(m.watched):
@@ -210,7 +220,7 @@ def _meeting(w: Any, m: Any, t: float, h: float, most: float) -> tuple[float, in
             if gap < -LENGTH:
                 at = _falls(w, m, m.watched + p, t, h, 0.0, last, x)
             elif s > 0 and _may_dip(olds(m)[c], gaps(m)[c], gap, last - older, x - last):
-                at = _grazes(w, m, p, t, h, older, x)
+                at = _grazes(w, m, m.watched + p, t, h, older, x)
             if at < first:
                 first, pair = at, p
             olds(m)[c] = gaps(m)[c]
@@ -294,10 +304,10 @@ def _candidates(w: Any, m: Any, h: float) -> tuple[int, int]:
 
 
 @part
-def _grazes(w: Any, m: Any, p: int, t: float, h: float, low: float, high: float) -> float:
-    """The share at which pair p meets where its gap is open at low and at high and least in between (golden
-    section); 2 if it stays open."""
-    start, what = low, m.watched + p
+def _grazes(w: Any, m: Any, what: int, t: float, h: float, low: float, high: float) -> float:
+    """The share at which a function falls below zero that is above it at low and at high and least in between
+    (golden section); 2 if it stays above."""
+    start = low
     golden = 0.6180339887498949
     for _ in range(60):
         one, two = high - golden * (high - low), low + golden * (high - low)
@@ -313,3 +323,34 @@ def _grazes(w: Any, m: Any, p: int, t: float, h: float, low: float, high: float)
         else:
             low = one
     return 2.0
+
+
+@part
+def _tautens(w: Any, m: Any, t: float, h: float, most: float) -> tuple[float, int]:
+    """(share of the step at which a slack wire first tautens, at most `most`; which watched function that is), for
+    those that are slack again at the step's end; (2, −1) if none does."""
+    first, found = 2.0, -1
+    scratch = slope(m, 1)
+    for k in range(m.rows):
+        row = row_of(m, k)
+        if row.kind != CORD or row.status == ON:
+            continue
+        link = link_of(w, row.source)
+        unpack(state(m), m.movable, poses(m), velocities(m))
+        here = link.rest - ends_of(w, row.source, poses(m))[8]
+        before_, last, older = here, 0.0, 0.0
+        for s in range(CORDS + 2):
+            x = most * _place(s, CORDS)
+            between(dense_of(m), x, scratch)
+            unpack(scratch, m.movable, poses(m), velocities(m))
+            gap = link.rest - ends_of(w, row.source, poses(m))[8]
+            at = 2.0
+            if s > 0 and _may_dip(before_, here, gap, last - older, x - last):
+                at = _grazes(w, m, 3 * k, t, h, older, x)
+            elif gap < -LENGTH and here > LENGTH:
+                at = _falls(w, m, 3 * k, t, h, 0.0, last, x)
+            if at < first:
+                first, found = at, 3 * k
+                break
+            before_, here, older, last = here, gap, last, x
+    return first, found
