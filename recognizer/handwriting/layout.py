@@ -14,7 +14,7 @@ from heapq import nlargest
 
 import numpy as np
 
-from recognizer.handwriting.language import STARTS, Language, Start
+from recognizer.handwriting.language import IS_LETTER, LINE, PART, STARTS, Language, Start
 from recognizer.handwriting.relations import NONE, Place, Relations, features, measures, place
 from recognizer.handwriting.search.beam import (
     BAR,
@@ -63,6 +63,9 @@ class LayoutRule:
     """Signs before a sign that it may hang on."""
     ends: float = 0.0
     """Weight of how seldom a sign is the last of its row."""
+    subbed: float = 0.0
+    supped: float = 0.0
+    """Added for each script: people write more of them than the generator, and less steeply."""
 
     @property
     def weights(self) -> FloatArray:
@@ -71,11 +74,13 @@ class LayoutRule:
             [
                 self.relation,
                 self.language,
-                0.25 * self.again,
+                self.again,
                 self.bare,
-                self.language * self.ends,
+                self.ends,
                 self.open,
                 -self.far,
+                self.subbed,
+                self.supped,
             ]
         )
 
@@ -280,7 +285,10 @@ def _beam(
         counts,
         table,
         language.follow,
+        language.letters,
         language.start[STARTS.index(start)],
+        LINE if start == "line" else PART,
+        IS_LETTER,
         _BRACKETS,
         rule.weights,
         rule.width,

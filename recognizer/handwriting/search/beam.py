@@ -15,13 +15,16 @@ from sketch.ink import FloatArray
 Indices = NDArray[np.int64]
 
 RIGHT, SUB, SUP, NONE = 0, 1, 2, 3
+SCRIPTED = 3
+"""Added to SUB and SUP it is the table of what a script begins with; ROWED added, of how it goes on: see `language`."""
+ROWED = 1
 ROWS = 10
 """Rows open at once, at most."""
-LAST, CHOSEN, SCRIPTS, PARENT, ROUND, SQUARE, BARS, NORMS = range(8)
+LAST, CHOSEN, SCRIPTS, PARENT, TABLE, ROUND, SQUARE, BARS, NORMS = range(9)
 """What a state knows of an open row: its last item and that one's choice, which scripts that has (1, 2), the row that it
-hangs on (−1), and how many round and square brackets, bars and double bars are open in it."""
-FIELDS = 8
-(RELATION, LANGUAGE, AGAIN, BARE, ENDS, OPEN, FLOOR) = range(7)
+hangs on (−1), the table of what follows in it, and how many round and square brackets, bars and double bars are open in it."""
+FIELDS = 9
+(RELATION, LANGUAGE, AGAIN, BARE, ENDS, OPEN, FLOOR, SUBBED, SUPPED) = range(9)
 """Places of the weights, see `layout.LayoutRule`."""
 (NEITHER, ROUND_OPENS, ROUND_CLOSES, SQUARE_OPENS, SQUARE_CLOSES, BAR, NORM) = range(7)
 """What a sign does to brackets."""
@@ -35,7 +38,10 @@ def beam(
     counts: Indices,
     relation: FloatArray,
     follow: FloatArray,
+    letters: FloatArray,
     start: FloatArray,
+    table: int,
+    letter: NDArray[np.bool_],
     brackets: Indices,
     weights: FloatArray,
     width: int,
@@ -45,7 +51,8 @@ def beam(
 
     signs, scores (n, c): what each item may be and the logarithm of its chance, counts (n,) how many of them; kinds (n, c): which
     column of `relation` (n, back, k, k, 4), the scores of an item's relation to those just before it, a choice has;
-    follow (3, s, s + 1) and start (s,): what usually follows; brackets (s,): what a sign does to brackets.
+    follow (6, s, s + 1), letters (6, s) and start (s,): what usually follows, see `language.Language`; table: of `follow` for the
+    region; letter (s,): which signs are letters; brackets (s,): what a sign does to brackets.
     """
     n, back = len(signs), relation.shape[1]
     score = np.full(width, -np.inf)
@@ -57,13 +64,13 @@ def beam(
     ways = np.zeros((width, 4), dtype=np.int64)
     held = 0
     for at in range(counts[0]):
-        gain = scores[0, at] + weights[LANGUAGE] * start[signs[0, at]]
+        gain = scores[0, at] + weights[LANGUAGE] * np.log(start[signs[0, at]])
         held = _offered(gain, 0, 0, at, 0, best, ways, held)
     for w in range(held):
         at = ways[w, 2]
         score[w] = best[w]
         rows[w, 0] = 0
-        rows[w, 0, CHOSEN], rows[w, 0, PARENT] = at, -1
+        rows[w, 0, CHOSEN], rows[w, 0, PARENT], rows[w, 0, TABLE] = at, -1, table
         off = _bracket(rows[w, 0], brackets[signs[0, at]])
         score[w] -= weights[OPEN] * off
         open_rows[w] = 1
@@ -78,7 +85,7 @@ def beam(
             for state in range(states):
                 held = _ways(
                     child, state, score[state], rows[state], open_rows[state], used[state], signs, kinds, scores, counts,
-                    relation, back, follow, brackets, weights, floor, best, ways, held,
+                    relation, back, follow, letters, letter, brackets, weights, floor, best, ways, held,
                 )  # fmt: skip
             if held:
                 break
@@ -149,6 +156,8 @@ def _ways(
     relation: FloatArray,
     back: int,
     follow: FloatArray,
+    letters: FloatArray,
+    letter: NDArray[np.bool_],
     brackets: Indices,
     weights: FloatArray,
     floor: float,
@@ -167,6 +176,7 @@ def _ways(
             if above == row:
                 closing[row] += _closed(rows[other], signs, follow, weights)
     believed = np.empty((count, 4))
+    known = np.sum(used & letter)
     for at in range(counts[child]):
         sign = signs[child, at]
         none = 0.0
@@ -185,15 +195,20 @@ def _ways(
             for how in range(NONE):
                 if believed[row, how] < floor or (how and (scripts & how or count == ROWS)):
                     continue
-                usual = follow[how, parent, sign]
-                if used[sign]:
-                    usual = np.log(np.exp(usual) + weights[AGAIN])
+                table = rows[row, TABLE] if how == RIGHT else how + SCRIPTED
+                chance = follow[table, parent, sign]
+                if known and letter[sign]:
+                    chance *= 1 - weights[AGAIN]
+                    if used[sign]:
+                        chance += weights[AGAIN] * letters[table, parent] / known
+                usual = np.log(chance)
                 off = 0.0
+                if how == SUB:
+                    off = weights[SUBBED]
+                elif how == SUP:
+                    off = weights[SUPPED]
                 if how == RIGHT:
-                    if not scripts & SUB:
-                        usual += weights[BARE] * follow[SUB, parent, len(follow[0])]
-                    if not scripts & SUP:
-                        usual += weights[BARE] * follow[SUP, parent, len(follow[0])]
+                    usual += weights[BARE] * _bare(parent, scripts, follow)
                     off = closing[row]
                     if _unopened(rows[row], brackets[sign]):
                         off -= weights[OPEN]
@@ -237,7 +252,21 @@ def _closed(row: Indices, signs: Indices, follow: FloatArray, weights: FloatArra
     """What it costs that the row ends here: how seldom its last sign is a row's last, and the brackets left open."""
     unpaired = row[ROUND] + row[SQUARE] + row[BARS] + row[NORMS]
     last = signs[row[LAST], row[CHOSEN]]
-    return weights[ENDS] * follow[RIGHT, last, len(follow[0])] - weights[OPEN] * unpaired
+    ends = np.log(follow[row[TABLE], last, len(follow[0])])
+    bare = _bare(last, row[SCRIPTS], follow)
+    return weights[LANGUAGE] * weights[ENDS] * (ends + weights[BARE] * bare) - weights[OPEN] * unpaired
+
+
+@kernel
+def _bare(sign: int, scripts: int, follow: FloatArray) -> float:
+    """The logarithm of the chance that the sign has no other scripts than these."""
+    end = len(follow[0])
+    usual = 0.0
+    if not scripts & SUB:
+        usual += np.log(follow[SCRIPTED + SUB, sign, end])
+    if not scripts & SUP:
+        usual += np.log(follow[SCRIPTED + SUP, sign, end])
+    return usual
 
 
 @kernel
@@ -250,6 +279,7 @@ def _next(
         made[row, SCRIPTS] |= how
         made[count] = 0
         made[count, LAST], made[count, CHOSEN], made[count, PARENT] = child, at, row
+        made[count, TABLE] = ROWED + how
         _bracket(made[count], bracket)
         return count + 1
     place = np.full(ROWS, -1, dtype=np.int64)
