@@ -15,7 +15,7 @@ from heapq import nlargest
 import numpy as np
 
 from recognizer.handwriting.language import IS_LETTER, LINE, PART, STARTS, Language, Start
-from recognizer.handwriting.relations import NONE, Place, Relations, features, measures, place
+from recognizer.handwriting.relations import FIT, Place, Relations, features, in_order, measures, place
 from recognizer.handwriting.search.beam import (
     BAR,
     NORM,
@@ -41,9 +41,9 @@ class LayoutRule:
     relation: float = 1.0
     language: float = 0.5
     """Less than one: people write more than the grammar that the tables come from."""
-    again: float = 0.25
+    again: float = 0.5
     """Share of a sign's chance that comes from its having been used in the line already."""
-    bare: float = 0.5
+    bare: float = 1.0
     """Weight of a sign's chance to have no script, against that of what follows it."""
     open: float = 2.5
     """Taken off for each bracket that has no partner in its row."""
@@ -61,8 +61,10 @@ class LayoutRule:
     """How far the middle of a sign over or under a bar may lie beyond its ends, in the line's scale."""
     back: int = 10
     """Signs before a sign that it may hang on."""
-    ends: float = 0.0
+    ends: float = 1.0
     """Weight of how seldom a sign is the last of its row."""
+    fitting: float = 0.5
+    """Weight of how well the extents of two signs fit their boxes."""
     subbed: float = 0.0
     supped: float = 0.0
     """Added for each script: people write more of them than the generator, and less steeply."""
@@ -81,6 +83,7 @@ class LayoutRule:
                 -self.far,
                 self.subbed,
                 self.supped,
+                self.fitting,
             ]
         )
 
@@ -130,8 +133,8 @@ def arranged(
         return arranged(part, scale, relations, language, name, rule)
 
     flat = _accented(_contained(items, scale, inner, rule), scale)
-    ordered = sorted(flat, key=lambda item: (item.place.box[0], item.place.box[2]))
-    return _beam(ordered, scale, relations, language, start, rule)
+    ordered = in_order([item.place for item in flat])
+    return _beam([flat[k] for k in ordered], scale, relations, language, start, rule)
 
 
 def _contained(
@@ -338,17 +341,16 @@ def _choices(
 def _table(
     items: Sequence[Item], reaches: Indices, scale: float, relations: Relations, rule: LayoutRule
 ) -> FloatArray:
-    """The scores of every item's relation to those before it by the kinds of both: (n, back, k, k, 4)."""
+    """The scores of every item's relation to those before it by the kinds of both: (n, back, k, k, 5)."""
     count, kinds = reaches.shape
     back = min(rule.back, max(count - 1, 1))
-    table = np.full((count, back, kinds, kinds, NONE + 1), -9.0)
+    table = np.full((count, back, kinds, kinds, FIT + 1), -9.0)
     children, gaps = np.nonzero(np.arange(count)[:, None] > np.arange(back)[None])
     parents = children - gaps - 1
     told = (reaches[parents] >= 0)[:, :, None] & (reaches[children] >= 0)[:, None]
     pairs, ones, others = np.nonzero(told)
     if len(pairs):
-        places = [item.place for item in items]
-        measured = measures([places[k] for k in parents], [places[k] for k in children], scale)
+        measured = measures([item.place for item in items], reaches[:, 0], parents, children, scale)
         shown = features(measured[pairs], reaches[parents[pairs], ones], reaches[children[pairs], others])
         table[children[pairs], gaps[pairs], ones, others] = relations.scores(shown)
     return table

@@ -14,7 +14,7 @@ from sketch.ink import FloatArray
 
 Indices = NDArray[np.int64]
 
-RIGHT, SUB, SUP, NONE = 0, 1, 2, 3
+RIGHT, SUB, SUP, NONE, FIT = 0, 1, 2, 3, 4
 SCRIPTED = 3
 """Added to SUB and SUP it is the table of what a script begins with; ROWED added, of how it goes on: see `language`."""
 ROWED = 1
@@ -24,7 +24,7 @@ LAST, CHOSEN, SCRIPTS, PARENT, TABLE, ROUND, SQUARE, BARS, NORMS = range(9)
 """What a state knows of an open row: its last item and that one's choice, which scripts that has (1, 2), the row that it
 hangs on (−1), the table of what follows in it, and how many round and square brackets, bars and double bars are open in it."""
 FIELDS = 9
-(RELATION, LANGUAGE, AGAIN, BARE, ENDS, OPEN, FLOOR, SUBBED, SUPPED) = range(9)
+(RELATION, LANGUAGE, AGAIN, BARE, ENDS, OPEN, FLOOR, SUBBED, SUPPED, FITTING) = range(10)
 """Places of the weights, see `layout.LayoutRule`."""
 (NEITHER, ROUND_OPENS, ROUND_CLOSES, SQUARE_OPENS, SQUARE_CLOSES, BAR, NORM) = range(7)
 """What a sign does to brackets."""
@@ -50,7 +50,7 @@ def beam(
     (−1 where it begins the region) and how: (w, n) each.
 
     signs, scores (n, c): what each item may be and the logarithm of its chance, counts (n,) how many of them; kinds (n, c): which
-    column of `relation` (n, back, k, k, 4), the scores of an item's relation to those just before it, a choice has;
+    column of `relation` (n, back, k, k, 5), the scores of an item's relation to those just before it, a choice has;
     follow (6, s, s + 1), letters (6, s) and start (s,): what usually follows, see `language.Language`; table: of `follow` for the
     region; letter (s,): which signs are letters; brackets (s,): what a sign does to brackets.
     """
@@ -175,7 +175,7 @@ def _ways(
                 above = rows[above, PARENT]
             if above == row:
                 closing[row] += _closed(rows[other], signs, follow, weights)
-    believed = np.empty((count, 4))
+    believed = np.empty((count, 5))
     known = np.sum(used & letter)
     for at in range(counts[child]):
         sign = signs[child, at]
@@ -187,7 +187,7 @@ def _ways(
                 believed[row] = relation[child, gap, kinds[last, rows[row, CHOSEN]], kinds[child, at]]
             else:
                 believed[row] = -9.0
-                believed[row, NONE] = -0.01
+                believed[row, NONE] = believed[row, FIT] = -0.01
             none += believed[row, NONE]
         for row in range(count):
             parent = signs[rows[row, LAST], rows[row, CHOSEN]]
@@ -217,6 +217,7 @@ def _ways(
                 gain = scores[child, at] + weights[RELATION] * (
                     none - believed[row, NONE] + believed[row, how]
                 )
+                gain += weights[FITTING] * believed[row, FIT]
                 held = _offered(
                     before + gain + weights[LANGUAGE] * usual + off, state, row, at, how, best, ways, held
                 )
