@@ -65,7 +65,7 @@ class LayoutRule:
     """Weight of how seldom a sign is the last of its row."""
     fitting: float = 0.5
     """Weight of how well the extents of two signs fit their boxes."""
-    subbed: float = 0.0
+    subbed: float = 0.3
     supped: float = 0.0
     """Added for each script: people write more of them than the generator, and less steeply."""
 
