@@ -11,12 +11,25 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from heapq import nlargest
-from math import exp, inf, log
 
 import numpy as np
 
-from recognizer.handwriting.language import END, STARTS, Language, Start
-from recognizer.handwriting.relations import NONE, Place, Relations, features, measures, place
+from recognizer.handwriting.language import IS_LETTER, LINE, PART, STARTS, Language, Start
+from recognizer.handwriting.relations import FIT, Place, Relations, features, in_order, measures, place
+from recognizer.handwriting.search.beam import (
+    BAR,
+    NORM,
+    RIGHT,
+    ROUND_CLOSES,
+    ROUND_OPENS,
+    SQUARE_CLOSES,
+    SQUARE_OPENS,
+    SUB,
+    SUP,
+    Indices,
+    beam,
+)
+from sketch.ink import FloatArray
 from sketch.writing.rows import Node, Row
 from sketch.writing.signs import ACCENTS, EXTENTS, FRACTION, LETTERS, NUMBER, ROOT, SIGNS, extent
 
@@ -28,9 +41,9 @@ class LayoutRule:
     relation: float = 1.0
     language: float = 0.5
     """Less than one: people write more than the grammar that the tables come from."""
-    again: float = 0.25
+    again: float = 0.5
     """Share of a sign's chance that comes from its having been used in the line already."""
-    bare: float = 0.5
+    bare: float = 1.0
     """Weight of a sign's chance to have no script, against that of what follows it."""
     open: float = 2.5
     """Taken off for each bracket that has no partner in its row."""
@@ -48,6 +61,31 @@ class LayoutRule:
     """How far the middle of a sign over or under a bar may lie beyond its ends, in the line's scale."""
     back: int = 10
     """Signs before a sign that it may hang on."""
+    ends: float = 1.0
+    """Weight of how seldom a sign is the last of its row."""
+    fitting: float = 0.5
+    """Weight of how well the extents of two signs fit their boxes."""
+    subbed: float = 0.3
+    supped: float = 0.0
+    """Added for each script: people write more of them than the generator, and less steeply."""
+
+    @property
+    def weights(self) -> FloatArray:
+        """As the beam takes them."""
+        return np.array(
+            [
+                self.relation,
+                self.language,
+                self.again,
+                self.bare,
+                self.ends,
+                self.open,
+                -self.far,
+                self.subbed,
+                self.supped,
+                self.fitting,
+            ]
+        )
 
 
 RULE = LayoutRule()
@@ -95,8 +133,8 @@ def arranged(
         return arranged(part, scale, relations, language, name, rule)
 
     flat = _accented(_contained(items, scale, inner, rule), scale)
-    ordered = sorted(flat, key=lambda item: (item.place.box[0], item.place.box[2]))
-    return _beam(ordered, scale, relations, language, start, rule)
+    ordered = in_order([item.place for item in flat])
+    return _beam([flat[k] for k in ordered], scale, relations, language, start, rule)
 
 
 def _contained(
@@ -233,26 +271,6 @@ def _accented(items: Sequence[Item], scale: float) -> list[Item]:
     return left
 
 
-@dataclass(frozen=True, slots=True)
-class _Open:
-    """A row that can go on: its last item and that one's choice, its line of ancestors, and which scripts the last
-    item has."""
-
-    last: int
-    chosen: int
-    lineage: tuple[int, ...]
-    scripts: int = 0
-
-
-@dataclass(frozen=True, slots=True)
-class _State:
-    score: float
-    rows: tuple[_Open, ...]
-    used: frozenset[int]
-    past: tuple[_State, int, int, int, int] | None
-    """The state before, the item, its choice, the item that it hangs on (−1 where it is first), and how."""
-
-
 def _beam(
     items: Sequence[Item],
     scale: float,
@@ -261,171 +279,101 @@ def _beam(
     start: Start,
     rule: LayoutRule,
 ) -> list[Ranked]:
-    tables = _tables(items, scale, relations, rule)
-    likely = [
-        [
-            (at, choice)
-            for at, choice in enumerate(item.choices)
-            if choice.score > item.choices[0].score - rule.unlikely
-        ]
-        for item in items
+    signs, kinds, scores, counts, reaches = _choices(items, rule)
+    table = _table(items, reaches, scale, relations, rule)
+    found, chosen, parents, hows = beam(
+        signs,
+        kinds,
+        scores,
+        counts,
+        table,
+        language.follow,
+        language.letters,
+        language.start[STARTS.index(start)],
+        LINE if start == "line" else PART,
+        IS_LETTER,
+        _BRACKETS,
+        rule.weights,
+        rule.width,
+    )
+    return [
+        Ranked(_row_of(items, chosen[k].tolist(), parents[k].tolist(), hows[k].tolist()), float(found[k]))
+        for k in range(min(rule.kept, len(found)))
     ]
-    begin = language.start[STARTS.index(start)]
-    states = [
-        _State(
-            choice.score + rule.language * float(begin[choice.sign]),
-            (_Open(0, at, ()),),
-            frozenset([choice.sign]),
-            (_EMPTY, 0, at, -1, 0),
-        )
-        for at, choice in likely[0]
-    ]
-    extents = [[EXTENTS.index(extent(SIGNS[choice.sign])) for choice in item.choices] for item in items]
-    for child in range(1, len(items)):
-        ways = _ways(child, states, items, likely[child], extents, tables, language, rule, -rule.far)
-        if not ways:  # nothing is near enough to hang on: on the likeliest, then
-            ways = _ways(child, states, items, likely[child], extents, tables, language, rule, -inf)
-        states = [_next(way, child, items) for way in nlargest(rule.width, ways, key=_score)]
-    ranked = [Ranked(_row_of(state, items), state.score) for state in states]
-    settled = [replace(one, score=one.score - rule.open * _unpaired(one.row)) for one in ranked]
-    return nlargest(rule.kept, settled, key=lambda one: one.score)
 
 
-_EMPTY = _State(0.0, (), frozenset(), None)
-_FAR = (-9.0, -9.0, -9.0, -0.01)
-Scores = tuple[float, float, float, float]
-"""Logarithms of the chances of right, sub, sup and none."""
+_BRACKETS = np.zeros(len(SIGNS), dtype=np.int64)
+for _sign, _does in zip(
+    ("(", ")", "[", "]", "|", "\\Vert"),
+    (ROUND_OPENS, ROUND_CLOSES, SQUARE_OPENS, SQUARE_CLOSES, BAR, NORM),
+    strict=True,
+):
+    _BRACKETS[NUMBER[_sign]] = _does
+_EXTENT = np.array([EXTENTS.index(extent(sign)) for sign in SIGNS])
 
 
-def _score(entry: tuple[float, _State, int, int, int]) -> float:
-    return entry[0]
+def _choices(
+    items: Sequence[Item], rule: LayoutRule
+) -> tuple[Indices, Indices, FloatArray, Indices, Indices]:
+    """What the items may be, as the beam takes it: signs, kinds, scores (n, c), counts (n,), and of each item the extents
+    that its kinds stand for, (n, k), −1 where there is none."""
+    most = max(len(item.choices) for item in items)
+    signs = np.zeros((len(items), most), dtype=np.int64)
+    kinds = np.zeros((len(items), most), dtype=np.int64)
+    scores = np.full((len(items), most), -np.inf)
+    counts = np.zeros(len(items), dtype=np.int64)
+    reaches = np.full((len(items), most), -1, dtype=np.int64)
+    for k, item in enumerate(items):
+        known: list[int] = []
+        likely = item.choices[0].score - rule.unlikely
+        for at, choice in enumerate(item.choices):
+            if choice.score <= likely:
+                continue
+            reach = int(_EXTENT[choice.sign])
+            if reach not in known:
+                reaches[k, len(known)] = reach
+                known.append(reach)
+            signs[k, at], scores[k, at], kinds[k, at] = choice.sign, choice.score, known.index(reach)
+            counts[k] = at + 1
+    return signs, kinds, scores, counts, reaches[:, : int((reaches >= 0).sum(axis=1).max())]
 
 
-def _ways(
-    child: int,
-    states: Sequence[_State],
-    items: Sequence[Item],
-    likely: Sequence[tuple[int, Choice]],
-    extents: Sequence[Sequence[int]],
-    tables: dict[tuple[int, int], dict[tuple[int, int], Scores]],
-    language: Language,
-    rule: LayoutRule,
-    floor: float,
-) -> list[tuple[float, _State, int, int, int]]:
-    """Every way to go on from the states with the next item: score, state, open row, choice, relation."""
-    follow = language.rows
-    again = 0.25 * rule.again
-    found: list[tuple[float, _State, int, int, int]] = []
-    for state in states:
-        near = [tables.get((row.last, child)) for row in state.rows]
-        for at, choice in likely:
-            sign, reach = choice.sign, extents[child][at]
-            rows = [
-                _FAR if table is None else table.get((extents[row.last][row.chosen], reach), _FAR)
-                for table, row in zip(near, state.rows, strict=True)
-            ]
-            none = sum(scores[NONE] for scores in rows)
-            known = sign in state.used
-            for number, (row, scores) in enumerate(zip(state.rows, rows, strict=True)):
-                parent = items[row.last].choices[row.chosen].sign
-                for relation in range(NONE):
-                    believed = scores[relation]
-                    if believed < floor or row.scripts & relation:
-                        continue
-                    usual = follow[relation][parent][sign]
-                    if known:
-                        usual = log(exp(usual) + again)
-                    if relation == 0:
-                        if not row.scripts & 1:
-                            usual += rule.bare * follow[1][parent][END]
-                        if not row.scripts & 2:
-                            usual += rule.bare * follow[2][parent][END]
-                    gain = (
-                        choice.score
-                        + rule.relation * (none - scores[NONE] + believed)
-                        + rule.language * usual
-                    )
-                    found.append((state.score + gain, state, number, at, relation))
-    return found
+def _table(
+    items: Sequence[Item], reaches: Indices, scale: float, relations: Relations, rule: LayoutRule
+) -> FloatArray:
+    """The scores of every item's relation to those before it by the kinds of both: (n, back, k, k, 5)."""
+    count, kinds = reaches.shape
+    back = min(rule.back, max(count - 1, 1))
+    table = np.full((count, back, kinds, kinds, FIT + 1), -9.0)
+    children, gaps = np.nonzero(np.arange(count)[:, None] > np.arange(back)[None])
+    parents = children - gaps - 1
+    told = (reaches[parents] >= 0)[:, :, None] & (reaches[children] >= 0)[:, None]
+    pairs, ones, others = np.nonzero(told)
+    if len(pairs):
+        measured = measures([item.place for item in items], reaches[:, 0], parents, children, scale)
+        shown = features(measured[pairs], reaches[parents[pairs], ones], reaches[children[pairs], others])
+        table[children[pairs], gaps[pairs], ones, others] = relations.scores(shown)
+    return table
 
 
-def _next(entry: tuple[float, _State, int, int, int], child: int, items: Sequence[Item]) -> _State:
-    score, state, at, chosen, relation = entry
-    row = state.rows[at]
-    if relation == 0:
-        rows = tuple(
-            _Open(child, chosen, one.lineage) if one is row else one
-            for one in state.rows
-            if one is row or row.last not in one.lineage
-        )
-    else:
-        marked = replace(row, scripts=row.scripts | relation)
-        new = _Open(child, chosen, (*row.lineage, row.last))
-        rows = (*(marked if one is row else one for one in state.rows), new)
-    used = state.used | {items[child].choices[chosen].sign}
-    return _State(score, rows, used, (state, child, chosen, row.last, relation))
-
-
-def _tables(
-    items: Sequence[Item], scale: float, relations: Relations, rule: LayoutRule
-) -> dict[tuple[int, int], dict[tuple[int, int], Scores]]:
-    """For each pair of items that may hang together the scores by the extents of both."""
-    pairs = [(p, c) for c in range(len(items)) for p in range(max(0, c - rule.back), c)]
-    if not pairs:
-        return {}
-    measured = measures([items[p].place for p, _ in pairs], [items[c].place for _, c in pairs], scale)
-    used = [sorted({EXTENTS.index(extent(SIGNS[choice.sign])) for choice in item.choices}) for item in items]
-    rows = [(at, one, other) for at, (p, c) in enumerate(pairs) for one in used[p] for other in used[c]]
-    index = np.array(rows)
-    scores = relations.scores(features(measured[index[:, 0]], index[:, 1], index[:, 2])).tolist()
-    tables: dict[tuple[int, int], dict[tuple[int, int], Scores]] = {pair: {} for pair in pairs}
-    for (at, one, other), score in zip(rows, scores, strict=True):
-        tables[pairs[at]][one, other] = tuple(score)
-    return tables
-
-
-def _row_of(state: _State, items: Sequence[Item]) -> Row:
-    """The row that a state has read."""
-    chosen: dict[int, Node] = {}
-    hung: dict[tuple[int, int], int] = {}
-    last = state.past
-    while last is not None:
-        before, child, at, parent, relation = last
-        chosen[child] = items[child].choices[at].node
-        if parent >= 0:
-            hung[parent, relation] = child
-        last = before.past
+def _row_of(items: Sequence[Item], chosen: list[int], parents: list[int], hows: list[int]) -> Row:
+    """The row that the items make, each hung on an item before it."""
+    hung: dict[tuple[int, int], int] = {
+        (parent, how): child
+        for child, (parent, how) in enumerate(zip(parents, hows, strict=True))
+        if parent >= 0
+    }
 
     def row(first: int) -> Row:
         nodes: list[Node] = []
         at: int | None = first
         while at is not None:
-            sub, sup = hung.get((at, 1)), hung.get((at, 2))
-            nodes.append(
-                replace(chosen[at], sub=() if sub is None else row(sub), sup=() if sup is None else row(sup))
-            )
-            at = hung.get((at, 0))
+            node = items[at].choices[chosen[at]].node
+            sub, sup = hung.get((at, SUB)), hung.get((at, SUP))
+            if sub is not None or sup is not None:
+                node = replace(node, sub=() if sub is None else row(sub), sup=() if sup is None else row(sup))
+            nodes.append(node)
+            at = hung.get((at, RIGHT))
         return tuple(nodes)
 
     return row(0)
-
-
-_PAIRS = {")": "(", "]": "["}
-
-
-def _unpaired(row: Row) -> int:
-    """Brackets and bars of the row, and of the scripts in it, that have no partner."""
-    stack: list[str] = []
-    alone = 0
-    for node in row:
-        if node.name in _PAIRS.values():
-            stack.append(node.name)
-        elif node.name in _PAIRS:
-            if stack and stack[-1] == _PAIRS[node.name]:
-                stack.pop()
-            else:
-                alone += 1
-        alone += _unpaired(node.sub) + _unpaired(node.sup)
-    for bar in ("|", "\\Vert"):
-        alone += sum(node.name == bar for node in row) % 2
-    return alone + len(stack)

@@ -1,7 +1,9 @@
 """How one sign lies to another: beside it, below it aslant, above it aslant, or not hung on it at all.
 
-A small net looks at the two boxes in the line's scale and at which part of a line each sign takes up
-(`sketch.writing.signs.extent`). Frame: page units, y down.
+A small net looks at the two boxes in the line's scale, at which part of a line each sign takes up
+(`sketch.writing.signs.extent`), and at the box before the one and after the other: whether `V p` is a product or V with a
+subscript shows in what stands beside them. It also says whether boxes that lie so can be of such signs: a small s is no
+capital. Frame: page units, y down.
 """
 
 from __future__ import annotations
@@ -23,8 +25,13 @@ Relation = Literal["right", "sub", "sup"]
 RELATIONS: tuple[Relation, ...] = ("right", "sub", "sup")
 NONE = len(RELATIONS)
 """The number of no relation at all."""
-MEASURES = 14
+FIT = NONE + 1
+"""The number of the extents' fitting the boxes."""
+OWN = 14
+BESIDE = 6
+MEASURES = OWN + 2 * (BESIDE + 1 + len(EXTENTS))
 FEATURES = MEASURES + 2 * len(EXTENTS)
+_EYE = np.eye(len(EXTENTS), dtype=np.float32)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,10 +47,33 @@ def place(box: Sequence[float], axis: float | None = None) -> Place:
     return Place((left, top, right, bottom), 0.5 * (top + bottom) if axis is None else axis)
 
 
-def measures(parents: Sequence[Place], children: Sequence[Place], scale: float) -> NDArray[np.float32]:
-    """Numbers of each pair's boxes, (n, 14), in the line's scale and in the parent's height."""
-    p = np.array([[*one.box, one.axis] for one in parents]).reshape(-1, 5) / scale
-    c = np.array([[*one.box, one.axis] for one in children]).reshape(-1, 5) / scale
+def in_order(places: Sequence[Place]) -> list[int]:
+    """The order in which signs are read: that of their middles, since the hook of a j begins before the i on its left."""
+    return sorted(range(len(places)), key=lambda k: places[k].box[0] + places[k].box[2])
+
+
+def measures(
+    places: Sequence[Place],
+    extents: NDArray[np.int64],
+    parents: NDArray[np.int64],
+    children: NDArray[np.int64],
+    scale: float,
+) -> NDArray[np.float32]:
+    """Numbers of pairs of places in the order of reading, (n, 50): the two boxes, and the boxes before the parent and after the
+    child with their extents, in the line's scale. extents (places,): what each is taken for; parents, children (n,)."""
+    every = np.array([[*one.box, one.axis] for one in places]).reshape(-1, 5) / scale
+    p, c = every[parents], every[children]
+    columns = [_pair(p, c)]
+    for near, known, other in ((children + 1, c, p), (parents - 1, p, c)):
+        there = (near >= 0) & (near < len(every))
+        near = np.where(there, near, 0)
+        columns.append(np.where(there[:, None], _beside(every[near], known, other), 0.0))
+        columns.append(there[:, None])
+        columns.append(np.where(there[:, None], _EYE[extents[near]], 0.0))
+    return np.concatenate(columns, axis=1, dtype=np.float32)
+
+
+def _pair(p: FloatArray, c: FloatArray) -> FloatArray:
     height_p, height_c = np.maximum(p[:, 3] - p[:, 1], 0.05), np.maximum(c[:, 3] - c[:, 1], 0.05)
     wide_p, wide_c = np.maximum(p[:, 2] - p[:, 0], 0.05), np.maximum(c[:, 2] - c[:, 0], 0.05)
     tall = np.maximum(height_p, 0.3)
@@ -63,15 +93,28 @@ def measures(parents: Sequence[Place], children: Sequence[Place], scale: float) 
         (c[:, 4] - p[:, 4]) / tall,
         (c[:, 3] - p[:, 1]) / tall,
     ]
-    return np.clip(np.stack(columns, axis=1), -5, 5).astype(np.float32)
+    return np.clip(np.stack(columns, axis=1), -5, 5)
+
+
+def _beside(near: FloatArray, known: FloatArray, other: FloatArray) -> FloatArray:
+    """A third box against the one beside it and against the other."""
+    gap = np.maximum(near[:, 0] - known[:, 2], known[:, 0] - near[:, 2])
+    columns = [
+        np.clip(gap, -2, 4),
+        near[:, 4] - known[:, 4],
+        near[:, 4] - other[:, 4],
+        near[:, 3] - other[:, 3],
+        near[:, 1] - other[:, 1],
+        np.log(np.maximum(near[:, 3] - near[:, 1], 0.05)),
+    ]
+    return np.clip(np.stack(columns, axis=1), -5, 5)
 
 
 def features(
     measured: NDArray[np.float32], parents: NDArray[np.int64], children: NDArray[np.int64]
 ) -> NDArray[np.float32]:
-    """What the net is shown of pairs: measures (n, 14) and the numbers of their extents, (n,) each: (n, 36)."""
-    eye = np.eye(len(EXTENTS), dtype=np.float32)
-    return np.concatenate([measured, eye[parents], eye[children]], axis=1)
+    """What the net is shown of pairs: measures (n, 50) and the numbers of their extents, (n,) each: (n, 72)."""
+    return np.concatenate([measured, _EYE[parents], _EYE[children]], axis=1)
 
 
 class Relations:
@@ -83,9 +126,9 @@ class Relations:
         self._session = onnxruntime.InferenceSession(model, options, providers=["CPUExecutionProvider"])
 
     def scores(self, shown: NDArray[np.float32]) -> FloatArray:
-        """Logarithms of the probabilities of right, sub, sup and none: (n, 4)."""
+        """Logarithms of the probabilities of right, sub, sup and none, and of the extents' fitting: (n, 5)."""
         if not len(shown):
-            return np.empty((0, NONE + 1))
+            return np.empty((0, FIT + 1))
         return np.asarray(self._session.run(None, {"pairs": shown})[0], dtype=np.float64)
 
 

@@ -11,14 +11,26 @@ from numpy.typing import NDArray
 from torch import Tensor, nn
 
 from recognizer.handwriting.line import Line, box_of
-from recognizer.handwriting.relations import FEATURES, NONE, Place, features, measures, place
+from recognizer.handwriting.relations import (
+    BESIDE,
+    FEATURES,
+    FIT,
+    MEASURES,
+    NONE,
+    OWN,
+    Place,
+    features,
+    in_order,
+    measures,
+    place,
+)
 from sketch.writing.rows import Node, Row
 from sketch.writing.signs import EXTENTS, FRACTION, extent
 from training.handwriting.corpus import Example
 
 
 class RelationNet(nn.Module):
-    """pairs (n, 36) -> log P of right, sub, sup, none (n, 4)."""
+    """pairs (n, 72) -> log P of right, sub, sup, none, and of the extents' fitting the boxes (n, 5)."""
 
     def __init__(self, width: int = 64) -> None:
         super().__init__()
@@ -28,11 +40,13 @@ class RelationNet(nn.Module):
             nn.ReLU(),
             nn.Linear(width, width),
             nn.ReLU(),
-            nn.Linear(width, NONE + 1),
+            nn.Linear(width, FIT + 1),
         )
 
     def forward(self, pairs: Tensor) -> Tensor:
-        return torch.log_softmax(self.layers(pairs), dim=1)
+        scores = self.layers(pairs)
+        told = torch.log_softmax(scores[:, :FIT], dim=1)
+        return torch.cat([told, nn.functional.logsigmoid(scores[:, FIT:])], dim=1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +55,10 @@ class RelationFitRule:
     batch: int = 1024
     rate: float = 4e-3
     smoothing: float = 0.01
+    fitting: float = 0.5
+    """Weight of the extents' fitting."""
+    blind: float = 0.15
+    """Share of the pairs of which a neighbour is not shown, or is shown as another sign: the reader may have misread it."""
 
 
 RULE = RelationFitRule()
@@ -104,7 +122,8 @@ def _region(row: Row, line: Line, shown: list[NDArray[np.float32]], answers: lis
 
     gather(row, -1, 0)
     places = [_place(node, line) for node in nodes]
-    order = sorted(range(len(nodes)), key=lambda k: (places[k].box[0], places[k].box[2]))
+    order = in_order(places)
+    at = {node: position for position, node in enumerate(order)}
     rows: list[_Open] = []
     parents: list[int] = []
     children: list[int] = []
@@ -112,8 +131,8 @@ def _region(row: Row, line: Line, shown: list[NDArray[np.float32]], answers: lis
     for child in order:
         parent, relation = edges[child]
         for one in rows:
-            parents.append(one.node)
-            children.append(child)
+            parents.append(at[one.node])
+            children.append(at[child])
             told.append(relation if one.node == parent else NONE)
         if relation == 0 and parent >= 0:
             lineage = next((one.lineage for one in rows if one.node == parent), ())
@@ -123,9 +142,10 @@ def _region(row: Row, line: Line, shown: list[NDArray[np.float32]], answers: lis
         rows.append(_Open(child, lineage))
     if not parents:
         return
-    measured = measures([places[k] for k in parents], [places[k] for k in children], line.scale)
-    extents = np.array([EXTENTS.index(extent(node.name)) for node in nodes])
-    shown.append(features(measured, extents[parents], extents[children]))
+    extents = np.array([EXTENTS.index(extent(nodes[k].name)) for k in order])
+    p, c = np.array(parents), np.array(children)
+    measured = measures([places[k] for k in order], extents, p, c, line.scale)
+    shown.append(features(measured, extents[p], extents[c]))
     answers += told
 
 
@@ -152,10 +172,61 @@ def fit(examples: Sequence[Example], seed: int, rule: RelationFitRule = RULE) ->
     for _ in range(rule.epochs):
         order = torch.from_numpy(rng.permutation(len(shown)))
         for chosen in order.split(rule.batch):
-            scores = net(shown[chosen])
-            loss = nn.functional.cross_entropy(scores, told[chosen], label_smoothing=rule.smoothing)
+            true = _blinded(shown[chosen], rule.blind)
+            false = _mistaken(true)
+            scores = net(torch.cat([true, false]))
+            loss = nn.functional.cross_entropy(
+                scores[: len(true), :FIT], told[chosen], label_smoothing=rule.smoothing
+            )
+            fits = scores[:, FIT].clamp(max=-1e-6)
+            unfit = torch.log(-torch.expm1(fits[len(true) :]))
+            loss = loss - rule.fitting * (fits[: len(true)].mean() + unfit.mean())
             optimizer.zero_grad(set_to_none=True)
             loss.backward()
             optimizer.step()
             schedule.step()
     return net.eval()
+
+
+def _blinded(shown: Tensor, share: float) -> Tensor:
+    """The pairs, of some of which a neighbour is hidden or taken for another sign."""
+    seen = shown.clone()
+    block = BESIDE + 1 + len(EXTENTS)
+    for first in (OWN, OWN + block):
+        hidden = torch.rand(len(seen)) < share / 2
+        seen[hidden, first : first + block] = 0.0
+        other = (torch.rand(len(seen)) < share / 2) & (seen[:, first + BESIDE] > 0)
+        signs = slice(first + BESIDE + 1, first + block)
+        seen[other, signs] = torch.eye(len(EXTENTS))[torch.randint(len(EXTENTS), (int(other.sum()),))]
+    return seen
+
+
+_TWINS = {
+    "x": "tall",
+    "tall": "x",
+    "deep": "tall",
+    "long": "tall",
+    "middle": "x",
+    "low": "tall",
+    "high": "low",
+    "bracket": "tall",
+}
+"""What a sign of an extent is easily mistaken for: s for S, P for p, 9 for g, × for x, a comma for 1."""
+_SECOND = {"x": "middle", "tall": "deep", "deep": "x", "low": "middle", "middle": "low", "bracket": "x"}
+
+
+def _mistaken(shown: Tensor) -> Tensor:
+    """The pairs with one of the two signs taken for one of another extent."""
+    places = {name: k for k, name in enumerate(EXTENTS)}
+    first = torch.tensor([places[_TWINS.get(name, "x")] for name in EXTENTS])
+    second = torch.tensor([places[_SECOND.get(name, _TWINS.get(name, "x"))] for name in EXTENTS])
+    seen = shown.clone()
+    of_child = torch.rand(len(seen)) < 0.5
+    for chosen, begin in ((~of_child, MEASURES), (of_child, MEASURES + len(EXTENTS))):
+        signs = slice(begin, begin + len(EXTENTS))
+        true = seen[chosen, signs].argmax(dim=1)
+        false = torch.where(torch.rand(len(true)) < 0.65, first[true], second[true])
+        rows = seen[chosen]
+        rows[:, signs] = torch.eye(len(EXTENTS))[false]
+        seen[chosen] = rows
+    return seen
