@@ -9,7 +9,7 @@ from pathlib import Path
 from data_gen.textbook.roster import names as every_problem
 from evaluation.lessons import Lesson
 from evaluation.page_contest import ORACLE, PageResult, page_contest
-from evaluation.parallel import Progress, silent
+from evaluation.parallel import Progress, Workers, silent
 from evaluation.stress import AXES
 from evaluation.stress_contest import Curve, Groups, groups, motion_curves, stroke_curves
 from evaluation.stroke_contest import StrokeResult, stroke_contest
@@ -69,18 +69,23 @@ class Extent:
 def contest_on_files(
     paths: Sequence[Path],
     names: Sequence[str],
-    jobs: int = 1,
+    workers: Workers = 1,
     progress: Progress = silent,
     without: Lesson | None = None,
 ) -> Contest:
     """The contest on labelled JSON Lines, without the rows of a lesson's writers. Raises FileError for an unreadable
     file, ValueError for a recognizer that is not known."""
     suite = strokes_from_files(paths, without)
-    return Contest(tuple(names), None, suite, stroke_contest(suite, names, jobs, progress), None, ())
+    return Contest(tuple(names), None, suite, stroke_contest(suite, names, workers, progress), None, ())
 
 
 def contest_on_generated(
-    strokes: int, pages: int, seed: int, names: Sequence[str], jobs: int = 1, progress: Progress = silent
+    strokes: int,
+    pages: int,
+    seed: int,
+    names: Sequence[str],
+    workers: Workers = 1,
+    progress: Progress = silent,
 ) -> Contest:
     """The contest on so many generated strokes and pages of a seed."""
     progress("Drawing the suites", 0, 2)
@@ -92,9 +97,9 @@ def contest_on_generated(
         tuple(names),
         seed,
         suite,
-        stroke_contest(suite, names, jobs, progress),
+        stroke_contest(suite, names, workers, progress),
         whole,
-        page_contest(whole, names, jobs, progress),
+        page_contest(whole, names, workers, progress),
     )
 
 
@@ -103,29 +108,29 @@ def whole_contest(
     extent: Extent,
     seed: int,
     names: Sequence[str],
-    jobs: int = 1,
+    workers: Workers = 1,
     progress: Progress = silent,
     without: Lesson | None = None,
 ) -> Contest:
     """The contest on files, where there are any, and on whatever is generated besides, as one. Raises FileError, ValueError as
     `contest_on_files`."""
     if paths:
-        contest = contest_on_files(paths, names, jobs, progress, without)
+        contest = contest_on_files(paths, names, workers, progress, without)
         if extent.strokes or extent.pages:
-            made = contest_on_generated(extent.strokes, extent.pages, seed, names, jobs, progress)
+            made = contest_on_generated(extent.strokes, extent.pages, seed, names, workers, progress)
             more = ((made.strokes, made.stroke_results),) if extent.strokes else ()
             contest = replace(contest, seed=seed, more=more, pages=made.pages, page_results=made.page_results)
     else:
-        contest = contest_on_generated(extent.strokes, extent.pages, seed, names, jobs, progress)
+        contest = contest_on_generated(extent.strokes, extent.pages, seed, names, workers, progress)
     if extent.pens:
         readers = (*names, ORACLE)
-        penned = read_problems(list(every_problem()), extent.pens, seed, readers, jobs, progress)
+        penned = read_problems(list(every_problem()), extent.pens, seed, readers, workers, progress)
         contest = replace(contest, penned=penned)
     if extent.stress or extent.stress_pages:
         axes = tuple(AXES)
-        curves = stroke_curves(names, axes, extent.stress, seed, jobs, progress) if extent.stress else []
+        curves = stroke_curves(names, axes, extent.stress, seed, workers, progress) if extent.stress else []
         if extent.stress_pages:
-            curves += motion_curves(names, axes, extent.stress_pages, seed, jobs, progress)
-        told = groups(names, extent.stress, seed, jobs, progress) if extent.stress else []
+            curves += motion_curves(names, axes, extent.stress_pages, seed, workers, progress)
+        told = groups(names, extent.stress, seed, workers, progress) if extent.stress else []
         contest = replace(contest, curves=tuple(curves), groups=tuple(told))
     return contest

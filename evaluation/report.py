@@ -16,7 +16,7 @@ from evaluation.contest import Contest
 from evaluation.illustrations import ABOUT, ANSWER_TITLES, Illustration, illustrations
 from evaluation.leaderboard import Standings, standings
 from evaluation.page_tables import page_notes, page_tables
-from evaluation.parallel import Progress, silent
+from evaluation.parallel import Progress, Workers, silent
 from evaluation.report_parts import all_tables, curves_of, explorer, exported, leaderboard, stress_of
 from evaluation.stroke_contest import StrokeResult
 from evaluation.suites import StrokeSuite
@@ -31,14 +31,14 @@ LIBRARIES = ("inklined", "numpy", "scipy", "sympy", "scikit-learn", "onnxruntime
 def report(
     contest: Contest,
     command: str,
-    jobs: int = 1,
+    workers: Workers = 1,
     progress: Progress = silent,
     made: datetime | None = None,
 ) -> str:
     """HTML of a contest; `command` is what was run, as a person types it; made: when, now by default. On generated ink
     with pages it draws every diagram in every recognizer's hands."""
     drawn = (
-        illustrations(contest.seed, contest.names, jobs, progress)
+        illustrations(contest.seed, contest.names, workers, progress)
         if contest.seed is not None and contest.pages and contest.pages.pages
         else []
     )

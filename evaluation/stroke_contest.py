@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import combinations
 
 import numpy as np
@@ -17,8 +16,8 @@ from scipy.stats import binomtest
 
 from evaluation.latency import Latency, latency
 from evaluation.metrics.strokes import StrokeScores, score
-from evaluation.parallel import Progress, in_parallel, silent
-from evaluation.rivals import rival
+from evaluation.parallel import Progress, Workers, in_parallel, silent
+from evaluation.rivals import resident, rival
 from evaluation.suites import StrokeSuite, claim_of_row
 from recognizer.claims import Claim, Recognizer
 from sketch.ink import Ink
@@ -68,15 +67,15 @@ class Pairing:
 
 
 def stroke_contest(
-    suite: StrokeSuite, names: Sequence[str], jobs: int = 1, progress: Progress = silent
+    suite: StrokeSuite, names: Sequence[str], workers: Workers = 1, progress: Progress = silent
 ) -> tuple[StrokeResult, ...]:
-    """Runs the recognizers of these names over the suite, in `jobs` processes, then takes their
+    """Runs the recognizers of these names over the suite, by the workers, then takes their
     latency in this one. Raises ValueError for a name that is not known."""
     for k, name in enumerate(names):
         progress("Preparing recognizers", k, len(names))
         rival(name)
     progress("Preparing recognizers", len(names), len(names))
-    claimed = _claims(suite.inks, names, jobs, progress)
+    claimed = _claims(suite.inks, names, workers, progress)
     results: list[StrokeResult] = []
     for k, name in enumerate(names):
         progress("Timing recognizers", k, len(names))
@@ -91,11 +90,11 @@ def pairings(results: Sequence[StrokeResult]) -> tuple[Pairing, ...]:
 
 
 def _claims(
-    inks: Sequence[Ink], names: Sequence[str], jobs: int, progress: Progress
+    inks: Sequence[Ink], names: Sequence[str], workers: Workers, progress: Progress
 ) -> dict[str, list[Claim]]:
     tasks = [(name, inks[k : k + BATCH]) for name in names for k in range(0, len(inks), BATCH)]
     claimed: dict[str, list[Claim]] = {name: [] for name in names}
-    batches = in_parallel(_claim_batch, tasks, jobs, "Recognizing strokes", progress)
+    batches = in_parallel(_claim_batch, tasks, workers, "Recognizing strokes", progress)
     for (name, _), batch in zip(tasks, batches, strict=True):
         claimed[name].extend(batch)
     return claimed
@@ -103,14 +102,8 @@ def _claims(
 
 def _claim_batch(task: tuple[str, Sequence[Ink]]) -> list[Claim]:
     name, inks = task
-    here = _here(name)
+    here = resident(name)
     return [claim_of_row(here.recognize(ink)) for ink in inks]
-
-
-@lru_cache
-def _here(name: str) -> Recognizer:
-    """This process's own recognizer of that name: loaded once."""
-    return rival(name)
 
 
 def _result(suite: StrokeSuite, recognizer: Recognizer, claims: Sequence[Claim]) -> StrokeResult:
