@@ -10,7 +10,7 @@ Splits are made before anybody is examined and are the same for all: every compa
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import ceil
 from typing import Literal, cast
@@ -206,10 +206,3 @@ def _by_label(rows: Sequence[Row], places: Sequence[int]) -> dict[str, list[int]
     for place in places:
         found[str(rows[place].label)].append(place)
     return {label: found[label] for label in sorted(found)}
-
-
-def rights(guesses: Sequence[Guess], name: str, templates: int, first: int = 1) -> Iterator[tuple[int, bool]]:
-    """(row, whether its label is among the first guesses) of a recognizer at so many templates, in the order of the tests."""
-    for guess in guesses:
-        if guess.name == name and guess.templates == templates:
-            yield guess.row, guess.label in guess.best[:first]
