@@ -7,6 +7,7 @@ scikit-learn, compiled kernels) count; what all need does not. `python -m evalua
 
 from __future__ import annotations
 
+import os
 import pickle
 import subprocess
 import sys
@@ -30,7 +31,9 @@ FORMULAS = 3
 SECONDS = 300.0
 """A process that takes longer is given up."""
 
-_ROOM = Path(__file__).parents[1] / "recognizer"
+ROOT = Path(__file__).parents[1]
+"""Where the rooms are: the fresh process imports the same ones."""
+_ROOM = ROOT / "recognizer"
 _NET = ("learned/weights/strokes.onnx",)
 _READING = tuple(
     f"handwriting/weights/{name}" for name in ("relations.onnx", "language.npz", "confidence.json")
@@ -80,6 +83,7 @@ def _grown(name: str, what: What) -> float | None:
             capture_output=True,
             check=True,
             timeout=SECONDS,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])},
         )
         return float(told.stdout.split()[-1])
     except (subprocess.SubprocessError, OSError, ValueError, IndexError):

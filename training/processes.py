@@ -8,7 +8,7 @@ the one of rank 0 keeps the checkpoint, calibrates and exports.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -50,7 +50,7 @@ ALONE = Processes()
 
 
 @contextmanager
-def processes() -> Iterator[Processes]:
+def processes() -> Generator[Processes]:
     """Those that torchrun started, joined for as long as the block lasts; this one alone where it did not."""
     if int(os.environ.get("WORLD_SIZE", "1")) == 1:
         yield ALONE
