@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from evaluation.contest import Contest
+from evaluation.formula_contest import FormulaResult
 from evaluation.rivals import rival
 from evaluation.stroke_contest import StrokeResult
 from evaluation.suites import StrokeSuite, claim_of_row
@@ -30,7 +31,7 @@ SHOWN = 12
 PARTS = 16
 """Parts of a stroke that are left out in turn."""
 LOOK = Look(points=150.0, margin=10.0, ink="#8a8a8a")
-CUSP, CROSSING, PATH = "#d8703b", "#a05bc0", "#8a8a8a"
+CUSP, CROSSING, PATH, WRITTEN = "#d8703b", "#a05bc0", "#8a8a8a", "#333333"
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,20 +77,32 @@ def attention(stroke: Stroke, net: Recognizer) -> FloatArray:
     return lost
 
 
-def _chosen(suite: StrokeSuite, results: Sequence[StrokeResult], most: int) -> list[int]:
-    """Rows by how sure the wrong ones are that others have right, the kinds in turn."""
+def surest_wrong(results: Sequence[StrokeResult] | Sequence[FormulaResult]) -> list[int]:
+    """Rows that some have right and others not, those first where the wrong are surest."""
     if not results or not results[0].sure:
         return []
     right = np.array([result.right for result in results])
     wrong = np.where(right, 0.0, np.array([result.sure for result in results])).max(axis=0)
     differ = np.flatnonzero(right.any(axis=0) & ~right.all(axis=0))
-    ranked = differ[np.argsort(-wrong[differ], kind="stable")].tolist()
+    return differ[np.argsort(-wrong[differ], kind="stable")].tolist()
+
+
+def _chosen(suite: StrokeSuite, results: Sequence[StrokeResult], most: int) -> list[int]:
+    """Those rows, the kinds in turn."""
+    ranked = surest_wrong(results)
     turns: Counter[str] = Counter()
     turn: dict[int, int] = {}
     for row in ranked:
         turn[row] = turns[suite.labels[row]]
         turns[suite.labels[row]] += 1
     return sorted(ranked, key=lambda row: turn[row])[:most]
+
+
+def ink_picture(ink: Ink, width: float, look: Look = LOOK) -> str:
+    """SVG of ink alone."""
+    view = view_around(np.concatenate([stroke.points for stroke in ink]), look)
+    pen = pen_for(view, look)
+    return picture([draw_path(stroke.points, pen, WRITTEN, 1.6) for stroke in ink], view, width, look)
 
 
 def _square(view: View) -> View:

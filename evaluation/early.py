@@ -11,7 +11,7 @@ import numpy as np
 
 from evaluation.examination import spread
 from evaluation.lessons import writer_of
-from evaluation.parallel import Progress, silent
+from evaluation.parallel import Progress, Workers, silent
 from evaluation.protocols import beginning, examine, usable, zero_shot
 from evaluation.statistics.intervals import Interval, balanced
 from evaluation.table import Cell, Table
@@ -31,7 +31,7 @@ def early_curves(
     rows: Sequence[Row],
     names: Sequence[str],
     steps: int,
-    jobs: int = 1,
+    workers: Workers = 1,
     progress: Progress = silent,
     seed: int = 0,
 ) -> list[EarlyCurve]:
@@ -42,7 +42,9 @@ def early_curves(
     fractions = tuple(k / steps for k in range(1, steps + 1))
     found: dict[str, list[Interval]] = {name: [] for name in names}
     for fraction in fractions:
-        guesses = examine(known, splits, names, seed, jobs, progress, partial(beginning, fraction=fraction))
+        guesses = examine(
+            known, splits, names, seed, workers, progress, partial(beginning, fraction=fraction)
+        )
         own = {name: [guess for guess in guesses if guess.name == name] for name in names}
         tested = own[names[0]]
         at = balanced(

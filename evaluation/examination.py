@@ -80,11 +80,16 @@ def duels(guesses: Sequence[Guess]) -> list[Duel]:
     ]
 
 
-def spread(value: Interval, digits: int = 1) -> str:
-    """A share in percent with its interval: 93.1 (91.0–95.0)."""
+def spread(value: Interval, digits: int = 1, signed: bool = False) -> str:
+    """A share in percent with its interval: 93.1 (91.0–95.0); signed, a difference: +2.1 (−0.3 to +4.5)."""
+
+    def percent(share: float) -> str:
+        return f"{100 * share:{'+' if signed else ''}.{digits}f}".replace("-", "−")
+
     if value.low is None or value.high is None:
-        return f"{100 * value.value:.{digits}f}"
-    return f"{100 * value.value:.{digits}f} ({100 * value.low:.{digits}f}–{100 * value.high:.{digits}f})"
+        return percent(value.value)
+    to = " to " if signed else "–"
+    return f"{percent(value.value)} ({percent(value.low)}{to}{percent(value.high)})"
 
 
 def tables(caption: str, found: Sequence[Mark], fought: Sequence[Duel]) -> list[Table]:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from evaluation.metrics.mathematics import Found, mistakes, same, signs, structure
+from evaluation.metrics.strokes import calibration_error
 from recognizer.handwriting.reader import Reader, Reading
 from sketch.files.jsonl import Row as InkRow
 from sketch.writing.rows import Row, RowError, row_of, sign_named
@@ -104,26 +105,15 @@ def scores(found: Sequence[Read]) -> Scores:
         structure_rate=share([structure(one.truth or ()) == structure(one.reading.row) for one in told]),
         symbol_accuracy=share([sign.right for sign in each]),
         symbol_accuracy_merged=share([sign.merged for sign in each]),
-        calibration_error=calibration_error([one.reading.confidence for one in told], right)
-        if told
-        else None,
+        calibration_error=calibration_error(
+            np.array([one.reading.confidence for one in told]), np.array(right, dtype=bool), BINS
+        ),
         latency_ms={
             "mean": round(float(times.mean()), 2),
             "p50": round(float(np.quantile(times, 0.5)), 2),
             "p95": round(float(np.quantile(times, 0.95)), 2),
             "max": round(float(times.max()), 2),
         },
-    )
-
-
-def calibration_error(confidence: Sequence[float], right: Sequence[bool]) -> float:
-    """Expected calibration error (Naeini et al. 2015) over `BINS` equal bins."""
-    sure, true = np.asarray(confidence), np.asarray(right, dtype=float)
-    bins = np.minimum((sure * BINS).astype(int), BINS - 1)
-    return float(
-        sum(
-            abs(sure[bins == k].mean() - true[bins == k].mean()) * (bins == k).mean() for k in np.unique(bins)
-        )
     )
 
 

@@ -9,7 +9,7 @@ from data_gen.pages import Page, page
 from data_gen.problems import ANSWERS, PROBLEMS
 from evaluation.graph import line_graph
 from evaluation.page_contest import Reading, read_page, score_page, true_reading
-from evaluation.parallel import Progress, in_parallel, silent
+from evaluation.parallel import Progress, Workers, in_parallel, silent
 from evaluation.pictures import strip
 from evaluation.words import happened
 from sketch import svg
@@ -65,7 +65,7 @@ class Illustration:
 
 
 def illustrations(
-    seed: int, names: Sequence[str], jobs: int = 1, progress: Progress = silent
+    seed: int, names: Sequence[str], workers: Workers = 1, progress: Progress = silent
 ) -> list[Illustration]:
     """A page of every diagram, and of every answer where a student can be wrong: the first page of the
     seed for each, as every recognizer of these names reads it."""
@@ -75,7 +75,7 @@ def illustrations(
         for answer in ANSWERS[problem]
         if answer in ANSWER_TITLES
     ]
-    return list(in_parallel(illustrate, chosen, jobs, "Drawing pictures", progress))
+    return list(in_parallel(illustrate, chosen, workers, "Drawing pictures", progress))
 
 
 def illustrate(task: tuple[Page, tuple[str, ...]]) -> Illustration:

@@ -68,7 +68,7 @@ def _shares(suite: str, measure: str, pairs: Sequence[Pair]) -> Table:
         texts = (
             str(test.only_first),
             str(test.only_second),
-            f"{100 * test.difference:+.2f}",
+            spread(pair.apart, 2, signed=True),
             probability(test.p),
             probability(pair.adjusted),
             odds,
@@ -77,7 +77,7 @@ def _shares(suite: str, measure: str, pairs: Sequence[Pair]) -> Table:
         return tuple(map(Cell, texts))
 
     return Table(
-        f"{suite}, {measure}: exact McNemar tests of all pairs, n = {pairs[0].test.n}; odds with their 95 % interval, g: Cohen's.",
+        f"{suite}, {measure}: exact McNemar tests of all pairs, n = {pairs[0].test.n}; difference in points and odds with their 95 % intervals, g: Cohen's.",
         ("", "first alone", "second alone", "difference", "p", "p, Holm", "odds", "g"),
         tuple((f"{pair.first} – {pair.second}", *cells(pair)) for pair in pairs),
     )
@@ -88,11 +88,17 @@ def _ranks(suite: str, measure: str, pairs: Sequence[Pair]) -> Table:
         test = pair.test
         assert not isinstance(test, McNemar)
         effect = "–" if test.effect is None else f"{test.effect:+.2f}"
-        return tuple(map(Cell, (str(test.n), probability(test.p), probability(pair.adjusted), effect)))
+        told = (
+            str(test.n),
+            spread(pair.apart, 2, signed=True),
+            probability(test.p),
+            probability(pair.adjusted),
+        )
+        return tuple(map(Cell, (*told, effect)))
 
     return Table(
-        f"{suite}, {measure}: Wilcoxon's signed-rank tests of all pairs; effect: rank-biserial, above 0 when the first has more.",
-        ("", "pairs that differ", "p", "p, Holm", "effect"),
+        f"{suite}, {measure}: Wilcoxon's signed-rank tests of all pairs; difference: of the means, in points, with its 95 % interval; effect: rank-biserial, above 0 when the first has more.",
+        ("", "pairs that differ", "difference", "p", "p, Holm", "effect"),
         tuple((f"{pair.first} – {pair.second}", *cells(pair)) for pair in pairs),
     )
 

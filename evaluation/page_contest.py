@@ -9,15 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 from data_gen.pages import Page
 from evaluation.metrics.diagram import DiagramMatch, diagram_match
 from evaluation.metrics.geometry import GeometryError, geometry_error
 from evaluation.metrics.matching import match_components
 from evaluation.metrics.motion import AT, MotionError, divergence, motion_error, same_outcome, until
-from evaluation.parallel import Progress, in_parallel, silent
-from evaluation.rivals import rival
+from evaluation.parallel import Progress, Workers, in_parallel, silent
+from evaluation.rivals import resident
 from evaluation.suites import PageSuite
 from physics.outcome import Outcome, outcome
 from physics.pipeline import Motion, move
@@ -73,12 +72,12 @@ class PageResult:
 
 
 def page_contest(
-    suite: PageSuite, names: Sequence[str], jobs: int = 1, progress: Progress = silent
+    suite: PageSuite, names: Sequence[str], workers: Workers = 1, progress: Progress = silent
 ) -> tuple[PageResult, ...]:
     """Runs the recognizers of these names, and the oracle, over the pages."""
     rivals = (*names, ORACLE)
     tasks = [(page, rivals) for page in suite.pages]
-    scored = list(in_parallel(_score_page, tasks, jobs, "Reading and moving pages", progress))
+    scored = list(in_parallel(_score_page, tasks, workers, "Reading and moving pages", progress))
     return tuple(PageResult(name, tuple(row[k] for row in scored)) for k, name in enumerate(rivals))
 
 
@@ -94,7 +93,7 @@ def read_page(page: Page, name: str) -> Reading:
 
 def claimed(page: Page, name: str) -> Sketch:
     """The page as the recognizer of that name reads it; "oracle" is told what each stroke is."""
-    reader: Recognizer = Oracle(page.truth) if name == ORACLE else _here(name)
+    reader: Recognizer = Oracle(page.truth) if name == ORACLE else resident(name)
     return interpret(page.truth.ink, reader, notes_of(page.truth))
 
 
@@ -138,9 +137,3 @@ def _reading(name: str, claim: Sketch, seconds: float) -> Reading:
     motion = move(claim, max(seconds, AT))
     shown = until(motion, seconds)
     return Reading(name, claim, motion, shown, outcome(shown), judgement(motion))
-
-
-@lru_cache
-def _here(name: str) -> Recognizer:
-    """This process's own recognizer of that name: loaded once."""
-    return rival(name)

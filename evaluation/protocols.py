@@ -10,17 +10,16 @@ Splits are made before anybody is examined and are the same for all: every compa
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from math import ceil
 from typing import Literal, cast
 
 import numpy as np
 
 from evaluation.lessons import writer_of
-from evaluation.parallel import Progress, in_parallel, silent
-from evaluation.rivals import rival
+from evaluation.parallel import Progress, Workers, in_parallel, silent
+from evaluation.rivals import resident
 from evaluation.suites import claim_of_row
 from recognizer.published import PUBLISHED
 from recognizer.samples import Sample
@@ -126,7 +125,7 @@ def examine(
     splits: Sequence[Split],
     names: Sequence[str],
     seed: int = 0,
-    jobs: int = 1,
+    workers: Workers = 1,
     progress: Progress = silent,
     change: Callable[[Ink], Ink] | None = None,
 ) -> tuple[Guess, ...]:
@@ -148,7 +147,7 @@ def examine(
         for split in splits
         for name in names
     ]
-    found = in_parallel(_guesses, tasks, jobs, "Examining recognizers", progress)
+    found = in_parallel(_guesses, tasks, workers, "Examining recognizers", progress)
     return tuple(guess for guesses in found for guess in guesses)
 
 
@@ -190,12 +189,9 @@ def _learnt(name: str, samples: Sequence[Sample], inks: Sequence[Ink], seed: int
 
 
 def _ready(name: str, inks: Sequence[Ink]) -> list[tuple[str, ...]]:
-    here = _here(name)
+    here = resident(name)
     ranked = (np.argsort(-claim_of_row(here.recognize(ink)).scores, kind="stable")[:BEST] for ink in inks)
     return [tuple(STROKE_KINDS[k] for k in order.tolist()) for order in ranked]
-
-
-_here = lru_cache(rival)
 
 
 def _by(rows: Sequence[Row], key: Callable[[Row], str]) -> dict[str, list[int]]:
@@ -210,10 +206,3 @@ def _by_label(rows: Sequence[Row], places: Sequence[int]) -> dict[str, list[int]
     for place in places:
         found[str(rows[place].label)].append(place)
     return {label: found[label] for label in sorted(found)}
-
-
-def rights(guesses: Sequence[Guess], name: str, templates: int, first: int = 1) -> Iterator[tuple[int, bool]]:
-    """(row, whether its label is among the first guesses) of a recognizer at so many templates, in the order of the tests."""
-    for guess in guesses:
-        if guess.name == name and guess.templates == templates:
-            yield guess.row, guess.label in guess.best[:first]

@@ -1,6 +1,6 @@
 """Where figures come from, and whether they come again: the command, the seed, versions, the machine and the data's hashes.
 
-Timings are what a second run may tell otherwise; everything else must be the same.
+Timings and memory are what a second run may tell otherwise; everything else must be the same.
 """
 
 from __future__ import annotations
@@ -13,10 +13,11 @@ from datetime import datetime
 from importlib.metadata import version
 from typing import Any, cast
 
+from evaluation.code import ROOMS, digest
 from evaluation.contest import Contest
 
 LIBRARIES = ("inklined", "numpy", "scipy", "sympy", "scikit-learn", "onnxruntime", "numba")
-TIMINGS = ("latency_ms", "made", "machine", "seconds")
+TIMINGS = ("latency_ms", "memory_mb", "made", "machine", "seconds")
 """Keys, wherever they stand, whose values may differ from run to run."""
 
 
@@ -26,12 +27,18 @@ def provenance(contest: Contest, arguments: Sequence[str], made: datetime, secon
         "arguments": list(arguments),
         "seed": contest.seed,
         "hashes": contest.hashes(),
-        "versions": {name: version(name) for name in LIBRARIES},
+        "code": digest(*ROOMS),
+        "versions": versions(),
         "python": platform.python_version(),
         "machine": machine(),
         "made": made.isoformat(timespec="seconds"),
         "seconds": round(seconds, 1),
     }
+
+
+def versions() -> dict[str, str]:
+    """Of inklined and of the libraries that figures depend on."""
+    return {name: version(name) for name in LIBRARIES}
 
 
 def machine() -> str:

@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
-import os
 import platform
 from collections.abc import Sequence
 from datetime import datetime
-from importlib.metadata import version
 from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+from evaluation.code import ROOMS, digest
 from evaluation.contest import Contest
 from evaluation.illustrations import ABOUT, ANSWER_TITLES, Illustration, illustrations
-from evaluation.leaderboard import Standings, standings
+from evaluation.leaderboard import standings
 from evaluation.page_tables import page_notes, page_tables
-from evaluation.parallel import Progress, silent
-from evaluation.report_parts import all_tables, curves_of, explorer, exported, leaderboard, stress_of
+from evaluation.parallel import Progress, Workers, silent
+from evaluation.provenance import machine, versions
+from evaluation.report_parts import (
+    all_tables,
+    curves_of,
+    explorer,
+    exported,
+    formulas_of,
+    leaderboard,
+    stress_of,
+)
 from evaluation.stroke_contest import StrokeResult
 from evaluation.suites import StrokeSuite
 from evaluation.table import Table
@@ -25,25 +33,23 @@ from evaluation.tables import recall_table, stroke_notes, stroke_table
 from evaluation.textbook_pens import pens_table
 from sketch.page import STROKE_KINDS
 
-LIBRARIES = ("inklined", "numpy", "scipy", "sympy", "scikit-learn", "onnxruntime")
-
 
 def report(
     contest: Contest,
     command: str,
-    jobs: int = 1,
+    workers: Workers = 1,
     progress: Progress = silent,
     made: datetime | None = None,
 ) -> str:
     """HTML of a contest; `command` is what was run, as a person types it; made: when, now by default. On generated ink
     with pages it draws every diagram in every recognizer's hands."""
     drawn = (
-        illustrations(contest.seed, contest.names, jobs, progress)
+        illustrations(contest.seed, contest.names, workers, progress)
         if contest.seed is not None and contest.pages and contest.pages.pages
         else []
     )
-    of = standings(contest, contest.seed or 0)
-    tables = report_tables(contest, of)
+    of = standings(contest)
+    tables = report_tables(contest)
     environment = Environment(
         loader=PackageLoader("evaluation"), autoescape=True, undefined=StrictUndefined, trim_blocks=True
     )
@@ -51,13 +57,17 @@ def report(
     assert loaded is not None
     style = loaded.get_source(environment, "report.css")[0]
     return environment.get_template("report.html.j2").render(
-        title=", ".join(contest.names),
+        title=", ".join(contest.names or _readers(contest)),
+        heading="Which recognizer reads the page best?"
+        if contest.names
+        else "Which reader reads mathematics best?",
         lead=_lead(contest),
         style=Markup(style),
         facts=_facts(contest, command, made or datetime.now().astimezone()),
         leaderboard=leaderboard(of),
         figures=curves_of(contest),
         stress=stress_of(contest) if contest.curves or contest.groups else None,
+        formulas=formulas_of(contest),
         penned=pens_table(contest.penned) if contest.penned else None,
         explorer=_explorer(contest),
         exported=exported(tables),
@@ -69,8 +79,10 @@ def report(
 
 
 def _lead(contest: Contest) -> str:
+    if not contest.names:
+        return f"{', '.join(_readers(contest))}: the same handwritten expressions, from their ink alone."
     rivals = ", ".join(contest.names)
-    if contest.pages is None:
+    if contest.pages is None or not contest.pages.pages:
         return f"{rivals}: the same labelled ink, stroke by stroke."
     return (
         f"{rivals}: the same ink, one shared back end. Recognizers are compared by the strokes that they name, by "
@@ -79,7 +91,11 @@ def _lead(contest: Contest) -> str:
     )
 
 
-def report_tables(contest: Contest, of: Standings) -> list[Table]:
+def _readers(contest: Contest) -> list[str]:
+    return list(dict.fromkeys(result.name for _, results in contest.formulas for result in results))
+
+
+def report_tables(contest: Contest) -> list[Table]:
     """Every table that the report shows, in its order."""
     scores = [
         table
@@ -87,12 +103,11 @@ def report_tables(contest: Contest, of: Standings) -> list[Table]:
         if suite.rows
         for table in (stroke_table(suite, results), recall_table(results))
     ]
-    return all_tables(contest, of, [*scores, *page_tables(contest.page_results)])
+    return all_tables(contest, standings(contest), [*scores, *page_tables(contest.page_results)])
 
 
 def _facts(contest: Contest, command: str, made: datetime) -> list[tuple[str, str]]:
-    suites = [suite.name for suite, _ in contest.stroke_suites()]
-    suites += [contest.pages.name] if contest.pages else []
+    suites = list(contest.hashes())
     hashes = ", ".join(f"{name}: {digest}" for name, digest in contest.hashes().items())
     seed = [] if contest.seed is None else [("Seed", str(contest.seed))]
     return [
@@ -100,8 +115,9 @@ def _facts(contest: Contest, command: str, made: datetime) -> list[tuple[str, st
         *seed,
         ("Command", command),
         ("Made", made.strftime("%Y-%m-%d %H:%M")),
-        ("Machine", f"{os.cpu_count()} cores, {platform.machine()}, Python {platform.python_version()}"),
-        ("Versions", ", ".join(f"{name} {version(name)}" for name in LIBRARIES)),
+        ("Machine", f"{machine()}, Python {platform.python_version()}"),
+        ("Versions", ", ".join(f"{name} {number}" for name, number in versions().items())),
+        ("Hash of the code", digest(*ROOMS)),
         ("Hashes of the data", hashes),
     ]
 

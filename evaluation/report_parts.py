@@ -9,8 +9,11 @@ import numpy as np
 from markupsafe import Markup
 
 from evaluation.contest import Contest
-from evaluation.disagreements import disagreements
+from evaluation.disagreements import disagreements, ink_picture, surest_wrong
 from evaluation.exports import as_csv, as_latex
+from evaluation.formula_contest import FormulaResult
+from evaluation.formula_suites import FormulaSuite
+from evaluation.formula_tables import formula_notes, formula_table
 from evaluation.graph import GraphLayout, line_graph
 from evaluation.illustrations import illustrate
 from evaluation.leaderboard import Standings
@@ -24,13 +27,15 @@ from evaluation.stress import AXES
 from evaluation.stress_contest import Curve
 from evaluation.stress_tables import stress_tables
 from evaluation.stroke_contest import StrokeResult
-from evaluation.suites import StrokeSuite
 from evaluation.table import Table
 from evaluation.textbook_pens import pens_table
+from sketch.writing.rows import latex
 
 RISING, FALLING = GraphLayout(names="top left"), GraphLayout(names="bottom left")
 MOST_PAGES = 3
 """Pages shown on which the motions of the readings differ."""
+MOST_FORMULAS = 6
+"""Expressions shown that readers read differently."""
 
 
 def leaderboard(of: Standings) -> dict[str, Any]:
@@ -51,7 +56,7 @@ def curves_of(contest: Contest) -> list[dict[str, Any]]:
     figures: list[dict[str, Any]] = []
     for suite, results in contest.stroke_suites():
         if suite.labels and results and results[0].sure:
-            figures += _confidence(suite, results)
+            figures += _confidence(f"{suite.name}, n = {len(suite.labels)}", results)
     pages = [result for result in contest.page_results if result.pages]
     if pages:
         times = np.array(TIMES)
@@ -84,6 +89,39 @@ def stress_of(contest: Contest) -> dict[str, Any]:
             )
         )
     return {"figures": figures, "tables": stress_tables(contest.curves, contest.groups)}
+
+
+def formulas_of(contest: Contest) -> list[dict[str, Any]]:
+    """The contest over handwritten mathematics, suite by suite, with expressions on which readers differ."""
+    return [
+        {
+            "name": suite.name,
+            "table": formula_table(suite, results),
+            "notes": formula_notes(suite),
+            "figures": _confidence(f"{suite.name}, n = {len(suite.rows)}", results),
+            "differ": [
+                _differently_read(suite, results, row) for row in surest_wrong(results)[:MOST_FORMULAS]
+            ],
+        }
+        for suite, results in contest.formulas
+    ]
+
+
+def _differently_read(suite: FormulaSuite, results: Sequence[FormulaResult], row: int) -> dict[str, Any]:
+    truth = results[0].reads[row].truth
+    return {
+        "label": latex(truth or ()),
+        "picture": Markup(ink_picture(suite.rows[row].ink, 320.0)),
+        "claims": [
+            {
+                "name": result.name,
+                "claim": result.reads[row].reading.latex or "nothing",
+                "sure": f"{100 * result.sure[row]:.0f}",
+                "right": result.right[row],
+            }
+            for result in results
+        ],
+    }
 
 
 def explorer(contest: Contest) -> dict[str, Any]:
@@ -120,7 +158,8 @@ def exported(tables: Sequence[Table]) -> list[dict[str, str]]:
 def all_tables(contest: Contest, of: Standings, others: Sequence[Table]) -> list[Table]:
     """The tables of the report, in its order."""
     penned = [pens_table(contest.penned)] if contest.penned else []
-    return [*standing_tables(of), *others, *penned, *stress_tables(contest.curves, contest.groups)]
+    read = [formula_table(*each) for each in contest.formulas]
+    return [*standing_tables(of), *others, *penned, *stress_tables(contest.curves, contest.groups), *read]
 
 
 def _order(of: Standings) -> str:
@@ -134,7 +173,10 @@ def _order(of: Standings) -> str:
     )
 
 
-def _confidence(suite: StrokeSuite, results: Sequence[StrokeResult]) -> list[dict[str, Any]]:
+def _confidence(
+    about: str, results: Sequence[StrokeResult] | Sequence[FormulaResult]
+) -> list[dict[str, Any]]:
+    """What the confidence of each is worth, as two figures."""
     even = np.array([0.0, 1.0])
     reliable = {"perfect": (100 * even, 100 * even)}
     risks = {}
@@ -146,7 +188,6 @@ def _confidence(suite: StrokeSuite, results: Sequence[StrokeResult]) -> list[dic
         )
         risk = risk_coverage(result.sure, result.right)
         risks[result.name] = (100 * np.array(risk.coverage), 100 * np.array(risk.risk))
-    about = f"{suite.name}, n = {len(suite.labels)}"
     return [
         _figure("Reliability", about, line_graph(reliable, "confidence, %", "right, %", RISING)),
         _figure(

@@ -17,13 +17,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from hashlib import sha256
-from importlib.metadata import version
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from evaluation import code
 from recognizer.claims import Recognizer
 from recognizer.published import PUBLISHED
 from recognizer.roster import ROSTER, recognizer
@@ -141,7 +141,7 @@ def _strangers() -> tuple[Ink, ...]:
 @cache
 def _kept(name: str) -> Calibrated:
     """What is kept of the rival, or the rival taught anew and kept."""
-    place = _place(f"{name}-{digest()}")
+    place = kept_at(name)
     found = _read(place)
     if found is not None:
         return found
@@ -164,6 +164,11 @@ def _own(name: str) -> Calibrated:
     if found is None:
         raise ValueError(f"{name!r} is not kept any more; teach it again with --train")
     return found
+
+
+def kept_at(name: str) -> Path:
+    """Where the taught rival of that name is kept, by this version of the code."""
+    return _place(name if OWN in name else f"{name}-{digest()}")
 
 
 def _place(name: str) -> Path:
@@ -200,12 +205,11 @@ def cache_folder() -> Path:
 
 
 @cache
+def resident(name: str) -> Recognizer:
+    """This process's own rival of that name: loaded once. Raises as `rival`."""
+    return rival(name)
+
+
 def digest() -> str:
     """Of all that a taught rival depends on: the generator, the rivals, and the libraries they learn with."""
-    root = Path(__file__).parents[1]
-    hashed = sha256(f"{version('numpy')} {version('scipy')} {version('scikit-learn')}".encode())
-    for room in ("sketch", "data_gen", "recognizer", "evaluation"):
-        patterns = ("rivals.py", "strangers.py") if room == "evaluation" else ("*.py", "**/*.py", "**/*.json")
-        for path in sorted({path for pattern in patterns for path in (root / room).glob(pattern)}):
-            hashed.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
-    return hashed.hexdigest()[:12]
+    return code.digest(*code.INK, "evaluation/rivals.py", "evaluation/strangers.py")

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -17,13 +16,12 @@ from data_gen.pages import Page, pages
 from data_gen.strokes import Recipe, generate
 from data_gen.writers import PROFILES
 from evaluation.metrics.motion import motion_error
-from evaluation.parallel import Progress, in_parallel, silent
-from evaluation.rivals import rival
+from evaluation.parallel import Progress, Workers, in_parallel, silent
+from evaluation.rivals import resident
 from evaluation.statistics.intervals import Interval, balanced
 from evaluation.stress import AXES, stressed
 from evaluation.suites import claim_of_row
 from physics.pipeline import Motion, move
-from recognizer.claims import Recognizer
 from recognizer.interpret import interpret, notes_of
 from sketch.ink import Ink
 from sketch.page import StrokeKind
@@ -62,7 +60,7 @@ def stroke_curves(
     axes: Sequence[str],
     count: int,
     seed: int,
-    jobs: int = 1,
+    workers: Workers = 1,
     progress: Progress = silent,
 ) -> list[Curve]:
     """The accuracy of every recognizer on `count` generated strokes along each axis. A stroke whose order alone changes is still
@@ -75,7 +73,7 @@ def stroke_curves(
         for axis, level in settings
         for name in names
     ]
-    claimed = list(in_parallel(_kinds, tasks, jobs, "Stressing strokes", progress))
+    claimed = list(in_parallel(_kinds, tasks, workers, "Stressing strokes", progress))
     right = [[kind == label for kind, label in zip(kinds, labels, strict=True)] for kinds in claimed]
     found: dict[tuple[str, str], list[Interval]] = {}
     for place, (axis, _) in enumerate(settings):
@@ -95,7 +93,7 @@ def motion_curves(
     axes: Sequence[str],
     count: int,
     seed: int,
-    jobs: int = 1,
+    workers: Workers = 1,
     progress: Progress = silent,
 ) -> list[Curve]:
     """The mean motion error of every recognizer on `count` generated pages along each axis that leaves the motion what it was."""
@@ -103,7 +101,7 @@ def motion_curves(
     settings = tuple((axis, level) for axis in chosen for level in AXES[axis].levels)
     tasks = [(page, k, tuple(names), settings, seed) for k, page in enumerate(pages(count, seed))]
     errors = np.array(
-        list(in_parallel(_errors, tasks, jobs, "Stressing pages", progress))
+        list(in_parallel(_errors, tasks, workers, "Stressing pages", progress))
     )  # (pages, settings, names)
     curves: list[Curve] = []
     for axis in chosen:
@@ -122,13 +120,13 @@ def motion_curves(
 
 
 def groups(
-    names: Sequence[str], count: int, seed: int, jobs: int = 1, progress: Progress = silent
+    names: Sequence[str], count: int, seed: int, workers: Workers = 1, progress: Progress = silent
 ) -> list[Groups]:
     """Every recognizer on `count` strokes by each group of writers."""
     found: dict[str, dict[str, Interval]] = {name: {} for name in names}
     made = {group: generate(count, seed, recipe=Recipe(profile=group)) for group in PROFILES}
     tasks = [(name, tuple(Ink((item.stroke,)) for item in made[group])) for group in made for name in names]
-    claimed = iter(in_parallel(_kinds, tasks, jobs, "Drawing as others draw", progress))
+    claimed = iter(in_parallel(_kinds, tasks, workers, "Drawing as others draw", progress))
     for group, items in made.items():
         labels = [item.kind for item in items]
         columns = [[k == label for k, label in zip(next(claimed), labels, strict=True)] for _ in names]
@@ -161,7 +159,7 @@ def plain(curves: Sequence[Curve], by_group: Sequence[Groups]) -> dict[str, Any]
 
 def _kinds(task: tuple[str, tuple[Ink, ...]]) -> list[StrokeKind]:
     name, inks = task
-    here = _here(name)
+    here = resident(name)
     return [claim_of_row(here.recognize(ink)).kind for ink in inks]
 
 
@@ -178,9 +176,4 @@ def _errors(
 
 
 def _error(page: Page, truth: Motion, ink: Ink, name: str) -> float:
-    return motion_error(truth, move(interpret(ink, _here(name), notes_of(page.truth)), SECONDS)).error
-
-
-@lru_cache
-def _here(name: str) -> Recognizer:
-    return rival(name)
+    return motion_error(truth, move(interpret(ink, resident(name), notes_of(page.truth)), SECONDS)).error

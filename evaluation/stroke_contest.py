@@ -9,16 +9,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
-from itertools import combinations
-
-import numpy as np
-from scipy.stats import binomtest
 
 from evaluation.latency import Latency, latency
+from evaluation.memory import Memory, memory
 from evaluation.metrics.strokes import StrokeScores, score
-from evaluation.parallel import Progress, in_parallel, silent
-from evaluation.rivals import rival
+from evaluation.parallel import Progress, Workers, in_parallel, silent
+from evaluation.rivals import resident, rival
 from evaluation.suites import StrokeSuite, claim_of_row
 from recognizer.claims import Claim, Recognizer
 from sketch.ink import Ink
@@ -38,7 +34,8 @@ class StrokeResult:
     claim is then `claim_of_row`); five: over single strokes that truly are of `DIAGRAM_KINDS`;
     claimable: over rows whose kind this recognizer can claim; unclaimable: the others by label,
     those that are no stroke kind included; rejected: rows it would rather not have named;
-    right: for each scored row whether its claim is its label; claimed, sure: what it was taken for, and how surely.
+    right: for each scored row whether its claim is its label; claimed, sure: what it was taken for, and how surely; memory: what
+    it takes.
     """
 
     name: str
@@ -50,52 +47,36 @@ class StrokeResult:
     unclaimable: dict[str, int]
     rejected: int
     latency: Latency
+    memory: Memory
     right: tuple[bool, ...]
-    claimed: tuple[StrokeKind, ...] = ()
-    sure: tuple[float, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Pairing:
-    """Two recognizers on the same rows: how many only the first, and only the second, got right;
-    p: exact two-sided sign test that both err equally often (McNemar's), None without a difference."""
-
-    first: str
-    second: str
-    only_first: int
-    only_second: int
-    p: float | None
+    claimed: tuple[StrokeKind, ...]
+    sure: tuple[float, ...]
 
 
 def stroke_contest(
-    suite: StrokeSuite, names: Sequence[str], jobs: int = 1, progress: Progress = silent
+    suite: StrokeSuite, names: Sequence[str], workers: Workers = 1, progress: Progress = silent
 ) -> tuple[StrokeResult, ...]:
-    """Runs the recognizers of these names over the suite, in `jobs` processes, then takes their
-    latency in this one. Raises ValueError for a name that is not known."""
+    """Runs the recognizers of these names over the suite, by the workers, then takes their
+    latency in this one and their memory in one of their own. Raises ValueError for a name that is not known."""
     for k, name in enumerate(names):
         progress("Preparing recognizers", k, len(names))
         rival(name)
     progress("Preparing recognizers", len(names), len(names))
-    claimed = _claims(suite.inks, names, jobs, progress)
+    claimed = _claims(suite.inks, names, workers, progress)
     results: list[StrokeResult] = []
     for k, name in enumerate(names):
         progress("Timing recognizers", k, len(names))
-        results.append(_result(suite, rival(name), claimed[name]))
+        results.append(_result(suite, name, rival(name), claimed[name]))
     progress("Timing recognizers", len(names), len(names))
     return tuple(results)
 
 
-def pairings(results: Sequence[StrokeResult]) -> tuple[Pairing, ...]:
-    """Every two recognizers compared row by row."""
-    return tuple(_pairing(first, second) for first, second in combinations(results, 2))
-
-
 def _claims(
-    inks: Sequence[Ink], names: Sequence[str], jobs: int, progress: Progress
+    inks: Sequence[Ink], names: Sequence[str], workers: Workers, progress: Progress
 ) -> dict[str, list[Claim]]:
     tasks = [(name, inks[k : k + BATCH]) for name in names for k in range(0, len(inks), BATCH)]
     claimed: dict[str, list[Claim]] = {name: [] for name in names}
-    batches = in_parallel(_claim_batch, tasks, jobs, "Recognizing strokes", progress)
+    batches = in_parallel(_claim_batch, tasks, workers, "Recognizing strokes", progress)
     for (name, _), batch in zip(tasks, batches, strict=True):
         claimed[name].extend(batch)
     return claimed
@@ -103,17 +84,11 @@ def _claims(
 
 def _claim_batch(task: tuple[str, Sequence[Ink]]) -> list[Claim]:
     name, inks = task
-    here = _here(name)
+    here = resident(name)
     return [claim_of_row(here.recognize(ink)) for ink in inks]
 
 
-@lru_cache
-def _here(name: str) -> Recognizer:
-    """This process's own recognizer of that name: loaded once."""
-    return rival(name)
-
-
-def _result(suite: StrokeSuite, recognizer: Recognizer, claims: Sequence[Claim]) -> StrokeResult:
+def _result(suite: StrokeSuite, name: str, recognizer: Recognizer, claims: Sequence[Claim]) -> StrokeResult:
     labels = suite.labels
 
     def over(chosen: Sequence[bool]) -> StrokeScores:
@@ -132,15 +107,8 @@ def _result(suite: StrokeSuite, recognizer: Recognizer, claims: Sequence[Claim])
         unclaimable={**{kind: beyond[kind] for kind in STROKE_KINDS if beyond[kind]}, **suite.unknown},
         rejected=sum(claim.rejected for claim in claims),
         latency=latency(recognizer, suite.inks),
+        memory=memory(name),
         right=tuple(claim.kind == label for claim, label in zip(claims, labels, strict=True)),
         claimed=tuple(claim.kind for claim in claims),
         sure=tuple(claim.confidence for claim in claims),
     )
-
-
-def _pairing(first: StrokeResult, second: StrokeResult) -> Pairing:
-    one, other = np.array(first.right, dtype=bool), np.array(second.right, dtype=bool)
-    only_first, only_second = int((one & ~other).sum()), int((other & ~one).sum())
-    differing = only_first + only_second
-    p = float(binomtest(only_first, differing).pvalue) if differing else None
-    return Pairing(first.name, second.name, only_first, only_second, p)

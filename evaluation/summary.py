@@ -7,12 +7,14 @@ from dataclasses import asdict
 from typing import Any
 
 from evaluation.contest import Contest
+from evaluation.formula_contest import FormulaResult
+from evaluation.formula_suites import FormulaSuite
 from evaluation.leaderboard import plain, standings
 from evaluation.metrics.calibration import reliability, risk_coverage
 from evaluation.metrics.strokes import StrokeScores
 from evaluation.page_scores import by_problem, summarize
 from evaluation.stress_contest import plain as stress_plain
-from evaluation.stroke_contest import DIAGRAM_KINDS, Pairing, StrokeResult, pairings
+from evaluation.stroke_contest import DIAGRAM_KINDS, StrokeResult
 from evaluation.suites import StrokeSuite
 from evaluation.textbook_pens import pens_summary
 from sketch.page import STROKE_KINDS
@@ -25,11 +27,11 @@ COVERAGES = (1.0, 0.95, 0.9, 0.8, 0.5)
 def contest_summary(contest: Contest) -> Json:
     """`stroke_summary`, and "pages" where pages were compared: for each recognizer the `PageSummary` over
     all pages and by problem. "seed" is null for files. "statistics": every measure with its interval, and all pairs; "more": further
-    suites of strokes; "textbook", "stress": where these took part."""
+    suites of strokes; "textbook", "stress", "formulas": where these took part."""
     summary = {
         **stroke_summary(contest.strokes, contest.stroke_results),
         "seed": contest.seed,
-        "statistics": plain(standings(contest, contest.seed or 0)),
+        "statistics": plain(standings(contest)),
     }
     if contest.more:
         summary["more"] = [stroke_summary(*each) for each in contest.more]
@@ -37,6 +39,8 @@ def contest_summary(contest: Contest) -> Json:
         summary["textbook"] = pens_summary(contest.penned)
     if contest.curves or contest.groups:
         summary["stress"] = stress_plain(contest.curves, contest.groups)
+    if contest.formulas:
+        summary["formulas"] = [formula_summary(*each) for each in contest.formulas]
     if contest.pages is None:
         return summary
     pages = {
@@ -51,8 +55,7 @@ def contest_summary(contest: Contest) -> Json:
 
 def stroke_summary(suite: StrokeSuite, results: Sequence[StrokeResult]) -> Json:
     """suite; rows: in the files or generated; scored: those with a label that is a stroke kind;
-    unknown_labels, unlabelled: the others; notices: what the reader skipped; recognizers: by name;
-    pairs: who alone is right, on how many rows."""
+    unknown_labels, unlabelled: the others; notices: what the reader skipped; recognizers: by name."""
     return {
         "suite": suite.name,
         "rows": suite.rows,
@@ -61,7 +64,26 @@ def stroke_summary(suite: StrokeSuite, results: Sequence[StrokeResult]) -> Json:
         "unknown_labels": dict(suite.unknown),
         "notices": list(suite.notices),
         "recognizers": {result.name: _recognizer(result) for result in results},
-        "pairs": [_pairing(pair) for pair in pairings(results)],
+    }
+
+
+def formula_summary(suite: FormulaSuite, results: Sequence[FormulaResult]) -> Json:
+    """suite; rows: in the files or generated; unread: those whose label is no mathematics; over: left out because fewer were asked
+    for; readers: by name."""
+    return {
+        "suite": suite.name,
+        "rows": suite.held,
+        "unread": suite.unread,
+        "over": suite.over,
+        "readers": {
+            result.name: {
+                **asdict(result.scores),
+                "memory_mb": {"grown": result.memory.grown, "learnt": result.memory.learnt},
+                "reliability": [asdict(each) for each in reliability(result.sure, result.right)],
+                "risk": _risk(result.sure, result.right),
+            }
+            for result in results
+        },
     }
 
 
@@ -69,6 +91,7 @@ def _recognizer(result: StrokeResult) -> Json:
     return {
         **_scores(result.scores),
         "latency_ms": {"p50": result.latency.p50, "p95": result.latency.p95, "n": result.latency.n},
+        "memory_mb": {"grown": result.memory.grown, "learnt": result.memory.learnt},
         "unclaimable": dict(result.unclaimable),
         "rejected": result.rejected,
         "five_kinds": {
@@ -84,15 +107,15 @@ def _recognizer(result: StrokeResult) -> Json:
         "reliability": [asdict(each) for each in reliability(result.sure, result.right)]
         if result.sure
         else [],
-        "risk": _risk(result),
+        "risk": _risk(result.sure, result.right),
     }
 
 
-def _risk(result: StrokeResult) -> Json:
+def _risk(sure: Sequence[float], right: Sequence[bool]) -> Json:
     """The risk at some coverages, and the area under all of the curve."""
-    if not result.sure:
+    if not sure:
         return {}
-    risk = risk_coverage(result.sure, result.right)
+    risk = risk_coverage(sure, right)
     return {"area": risk.area, "at": {f"{kept:g}": risk.at(kept) for kept in COVERAGES}}
 
 
@@ -117,14 +140,4 @@ def _confusion(scores: StrokeScores) -> Json:
         }
         for row, kind in enumerate(STROKE_KINDS)
         if kind in scores.per_class
-    }
-
-
-def _pairing(pair: Pairing) -> Json:
-    return {
-        "first": pair.first,
-        "second": pair.second,
-        "only_first_right": pair.only_first,
-        "only_second_right": pair.only_second,
-        "p": pair.p,
     }

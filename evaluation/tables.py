@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import combinations
 
 from evaluation.metrics.strokes import StrokeScores
-from evaluation.stroke_contest import DIAGRAM_KINDS, StrokeResult, pairings
+from evaluation.statistics.paired import mcnemar
+from evaluation.stroke_contest import DIAGRAM_KINDS, StrokeResult
 from evaluation.suites import StrokeSuite
 from evaluation.table import UNKNOWN, Cell, Table, column, table
 from sketch.page import STROKE_KINDS, StrokeKind
@@ -13,18 +15,23 @@ from sketch.page import STROKE_KINDS, StrokeKind
 TOLD = 5
 """Notices of the reader of files that are shown; the JSON file holds all of them."""
 
+MEMORY = (
+    "Memory: by how much the greatest resident memory of a fresh process grows while it loads the recognizer and reads some "
+    "generated ink, libraries that only it needs included; learnt: the size of the files that hold what it learnt."
+)
+
 LISTED = 12
 """Labels that a sentence lists; the JSON file holds all of them."""
 
 
 def stroke_table(suite: StrokeSuite, results: Sequence[StrokeResult]) -> Table:
-    """One row a recognizer: the scores of strokes, and the time they take."""
+    """One row a recognizer: the scores of strokes, the time they take, and the memory."""
 
     def share(values: Sequence[float | None], low: bool = False) -> list[Cell]:
         return column(values, 1, 100, low)
 
     return table(
-        f"{suite.name}: {len(suite.labels)} rows scored. Shares in %, times in ms a stroke on one thread.",
+        f"{suite.name}: {len(suite.labels)} rows scored. Shares in %, times in ms a stroke on one thread; memory and learnt in MB.",
         [result.name for result in results],
         {
             "accuracy": share([result.scores.accuracy for result in results]),
@@ -34,6 +41,8 @@ def stroke_table(suite: StrokeSuite, results: Sequence[StrokeResult]) -> Table:
             "ECE": share([result.scores.ece for result in results], low=True),
             "p50 ms": column([result.latency.p50 for result in results], 2, low=True),
             "p95 ms": column([result.latency.p95 for result in results], 2, low=True),
+            "memory": column([result.memory.grown for result in results], 0, low=True),
+            "learnt": column([result.memory.learnt for result in results], 2, low=True),
         },
     )
 
@@ -63,7 +72,8 @@ def stroke_notes(suite: StrokeSuite, results: Sequence[StrokeResult]) -> list[st
     """What the tables do not say, in sentences."""
     five = results[0].five.n if results else 0
     notes = [
-        f"Five kinds: balanced accuracy over {five} single strokes, each one of {', '.join(DIAGRAM_KINDS)}."
+        f"Five kinds: balanced accuracy over {five} single strokes, each one of {', '.join(DIAGRAM_KINDS)}.",
+        MEMORY,
     ]
     several = sum(not single for single in suite.single)
     if several:
@@ -85,10 +95,11 @@ def stroke_notes(suite: StrokeSuite, results: Sequence[StrokeResult]) -> list[st
     if suite.unlabelled:
         notes.append(f"{suite.unlabelled} rows bear no label and are not scored.")
     notes += [
-        f"{pair.first} alone is right on {pair.only_first} rows, {pair.second} alone on {pair.only_second} "
-        f"(sign test p = {pair.p:.2g})."
-        for pair in pairings(results)
-        if pair.p is not None
+        f"{first.name} alone is right on {test.only_first} rows, {second.name} alone on {test.only_second} "
+        f"(exact McNemar test, p = {test.p:.2g})."
+        for first, second in combinations(results, 2)
+        for test in [mcnemar(first.right, second.right)]
+        if test.p is not None
     ]
     more = len(suite.notices) - TOLD
     return [*notes, *suite.notices[:TOLD], *([f"… and {more} more such notices."] if more > 0 else [])]

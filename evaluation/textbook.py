@@ -16,7 +16,7 @@ from data_gen.pages import meaning
 from data_gen.problems import in_reading_order
 from data_gen.textbook.exercise import Answer, Exercise
 from data_gen.textbook.roster import exercise
-from evaluation.parallel import Progress, in_parallel, silent
+from evaluation.parallel import Progress, Workers, in_parallel, silent
 from evaluation.table import Cell, Table
 from physics.rectify import rectify
 from physics.verify import Verdict, verify
@@ -61,11 +61,11 @@ class Shares:
 
 
 def judge_problems(
-    names: Sequence[Name], draws: int, seed: int, jobs: int = 1, progress: Progress = silent
+    names: Sequence[Name], draws: int, seed: int, workers: Workers = 1, progress: Progress = silent
 ) -> tuple[Judged, ...]:
     """Every answer of every problem, `draws` times."""
     tasks = [(name, seed, draw) for name in names for draw in range(draws)]
-    judged = in_parallel(_judge, tasks, jobs, "Judging answers", progress)
+    judged = in_parallel(_judge, tasks, workers, "Judging answers", progress)
     return tuple(one for answers in judged for one in answers)
 
 

@@ -18,7 +18,7 @@ from evaluation.metrics.diagram import diagram_match
 from evaluation.metrics.matching import match_components
 from evaluation.metrics.motion import same_outcome
 from evaluation.page_contest import claimed
-from evaluation.parallel import Progress, in_parallel, silent
+from evaluation.parallel import Progress, Workers, in_parallel, silent
 from evaluation.table import Cell, Table
 from evaluation.textbook import Name
 from physics.outcome import outcome
@@ -41,7 +41,7 @@ def read_problems(
     pens: int,
     seed: int,
     recognizers: Sequence[str],
-    jobs: int = 1,
+    workers: Workers = 1,
     progress: Progress = silent,
 ) -> tuple[Penned, ...]:
     """Every problem drawn by `pens` people, in the hands of every recognizer ("oracle" is one)."""
@@ -50,7 +50,7 @@ def read_problems(
         for pen in range(pens)
         for number, name in enumerate(names)
     ]
-    read = in_parallel(_read, tasks, jobs, "Reading and moving pages", progress)
+    read = in_parallel(read_problem, tasks, workers, "Reading and moving pages", progress)
     return tuple(one for page in read for one in page)
 
 
@@ -64,7 +64,8 @@ def penned(name: Name, seed: int, index: int) -> Page:
     return inked(": ".join(name), seed, index, "right", meant)
 
 
-def _read(task: tuple[Name, int, int, Sequence[str]]) -> list[Penned]:
+def read_problem(task: tuple[Name, int, int, Sequence[str]]) -> list[Penned]:
+    """One page, by its name, seed and index, in the hands of recognizers of some names."""
     name, seed, index, recognizers = task
     page = penned(name, seed, index)
     truth = outcome(move(page.truth, page.seconds))

@@ -36,7 +36,7 @@ HELP = """Ink that knows physics: reads pages of pen strokes, sets them in motio
 recognizers by what comes out. Without a command: inklined compare."""
 
 REPEATED: dict[str, tuple[str, ...]] = {
-    "compare": ("--ink", "--recognizer", "--train"),
+    "compare": ("--ink", "--recognizer", "--train", "--formulas", "--reader"),
     "evaluate": ("--recognizer",),
     "export": ("--label",),
     "early": ("--recognizer",),

@@ -2,13 +2,39 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Collection, Iterable
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, Annotated, TypeVar
 
 import typer
 
+if TYPE_CHECKING:
+    from evaluation.parallel import Workers
+
 Name = TypeVar("Name", bound=str)
+Jobs = Annotated[int, typer.Option("--jobs", min=0, help="Processes; 0: one for each core.")]
+ClusterAddress = Annotated[
+    str | None,
+    typer.Option(
+        "--cluster",
+        help="Address of a Dask scheduler, tcp://HOST:PORT; its workers do the work, not this machine.",
+    ),
+]
+
+
+def workers_of(jobs: int, cluster: str | None) -> Workers:
+    """Who works, by --jobs and --cluster. Raises OutputError when a cluster is asked for and Dask is not installed."""
+    from evaluation.parallel import Cluster, check_dask
+    from inklined.output import OutputError
+
+    if cluster is None:
+        return jobs or os.cpu_count() or 1
+    try:
+        check_dask()
+    except ValueError as error:
+        raise OutputError(str(error)) from None
+    return Cluster(cluster)
 
 
 def known(option: str, values: Iterable[str], names: Collection[Name]) -> tuple[Name, ...]:

@@ -1,4 +1,4 @@
-"""`python -m training`: remakes the net from nothing but a seed."""
+"""`python -m training`: remakes the net from nothing but a seed; by several processes with `torchrun -m training`."""
 
 from __future__ import annotations
 
@@ -25,11 +25,14 @@ from training.export import export
 from training.fit import RULE, FitRule, fit, say
 from training.nets import PageNet, parameters_of
 from training.parity import parity
+from training.processes import Processes, processes
 from training.progress import Tell, progress
 from training.reader import RawReader
 
 WORK = Path(".inklined-train")
 """Where corpus and checkpoint are kept while training runs, so that it can be taken up again."""
+
+CHECKPOINT = "checkpoint.pt"
 
 HELD_OUT = Plan(alone=10_000, strewn=800, pages=600, doodles=2_000, arrows=400, signs=60)
 """Drawings that the net is calibrated on; their seed, and so their writers, are others."""
@@ -38,7 +41,13 @@ HELD_OUT = Plan(alone=10_000, strewn=800, pages=600, doodles=2_000, arrows=400, 
 def main(arguments: list[str] | None = None) -> int:
     """Makes the corpus, trains, calibrates, exports and writes the card's figures beside the weights."""
     options = _options(arguments)
-    console = Console(stderr=True)
+    with processes() as among:
+        return _trained(options, among)
+
+
+def _trained(options: argparse.Namespace, among: Processes) -> int:
+    """The same in one of some processes."""
+    console = Console(stderr=True, quiet=not among.leads)
     begun = time.monotonic()
     torch.set_num_threads(options.threads)
     plan = Plan().scaled(options.drawings / Plan().total)
@@ -49,19 +58,25 @@ def main(arguments: list[str] | None = None) -> int:
         "epochs": options.epochs,
         "plan": asdict(plan),
         "kinds": list(STROKE_KINDS),
+        **({"processes": among.count} if among.count > 1 else {}),
     }
-    _prepare(work, key, resume=options.resume)
+    corpus_file = work / (f"corpus-{among.rank}.npz" if among.count > 1 else "corpus.npz")
+    _prepare(work, key, corpus_file, among, resume=options.resume)
     with progress(console) as tell:
-        corpus = _corpus(work / "corpus.npz", plan, options.seed, options.threads, tell)
+        corpus = _corpus(corpus_file, plan, options.seed, options.threads, among, tell)
+        strokes = among.total(len(corpus.kind))
         trained = time.monotonic()
         net = fit(
             corpus,
             options.seed,
             FitRule(epochs=options.epochs),
             progress=lambda share, loss: tell("training", share, f"loss {loss:.3f}"),
-            checkpoint=work / "checkpoint.pt",
+            checkpoint=work / CHECKPOINT,
+            among=among,
         )
         fitted = time.monotonic()
+        if not among.leads:
+            return 0
         unseen = make_corpus(
             held, options.seed + 1_000, options.threads, lambda s: tell("held-out ink", s, "")
         )
@@ -71,8 +86,9 @@ def main(arguments: list[str] | None = None) -> int:
         "command": f"inklined train --seed {options.seed} --drawings {options.drawings} --epochs {options.epochs}",
         "seed": options.seed,
         "drawings": plan.total,
-        "strokes": len(corpus.kind),
+        "strokes": strokes,
         "epochs": options.epochs,
+        **({"processes": among.count} if among.count > 1 else {}),
         "kinds": list(STROKE_KINDS),
         "parameters": parameters_of(net),
         "temperature": round(found.temperature, 4),
@@ -95,27 +111,31 @@ def main(arguments: list[str] | None = None) -> int:
     return 0 if np.isfinite(found.temperature) and recipe["parity_with_torch"] < 1e-4 else 1
 
 
-def _prepare(work: Path, key: dict[str, object], resume: bool) -> None:
+def _prepare(work: Path, key: dict[str, object], corpus: Path, among: Processes, resume: bool) -> None:
     """An empty place to work in; with `resume` the one there, if it is of the same training."""
-    note = work / "training.json"
+    note = work / (f"training-{among.rank}.json" if among.count > 1 else "training.json")
     text = json.dumps(key, sort_keys=True)
     if resume:
         if not note.exists():
-            sys.exit(f"nothing to resume in {work}: it holds no training.json; leave --resume out to begin")
+            sys.exit(f"nothing to resume in {work}: it holds no {note.name}; leave --resume out to begin")
         if note.read_text("utf-8") != text:
             sys.exit(f"{work} holds another training: {note.read_text('utf-8')}; asked for is {text}")
         return
     work.mkdir(parents=True, exist_ok=True)
-    for name in ("corpus.npz", "checkpoint.pt"):
-        (work / name).unlink(missing_ok=True)
+    corpus.unlink(missing_ok=True)
+    if among.leads:
+        (work / CHECKPOINT).unlink(missing_ok=True)
     note.write_text(text, "utf-8")
 
 
-def _corpus(file: Path, plan: Plan, seed: int, jobs: int, tell: Tell) -> Corpus:
+def _corpus(file: Path, plan: Plan, seed: int, jobs: int, among: Processes, tell: Tell) -> Corpus:
+    """This process's part of the corpus, made unless it is there."""
     if file.exists():
         return Corpus.load(file)
-    corpus = make_corpus(plan, seed, jobs, lambda share: tell("generating", share, ""))
-    fresh = file.with_name("fresh.npz")
+    corpus = make_corpus(
+        plan, seed, jobs, lambda share: tell("generating", share, ""), rank=among.rank, of=among.count
+    )
+    fresh = file.with_name(f"fresh-{file.name}")
     corpus.save(fresh)
     fresh.replace(file)
     return corpus
@@ -151,7 +171,8 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="inklined train",
         description="Trains the learned recognizer's net from generated ink alone and exports it as ONNX.",
-        epilog="example: inklined train --seed 1 --out my-net.onnx",
+        epilog="example: inklined train --seed 1 --out my-net.onnx; by several processes: "
+        "torchrun --standalone --nproc-per-node 2 -m training --seed 1 --threads 1 --out my-net.onnx",
     )
     parser.add_argument("--seed", type=int, default=1, help="everything follows from it (default 1)")
     parser.add_argument(

@@ -80,14 +80,18 @@ def make_corpus(
     jobs: int,
     progress: Callable[[float], None] = lambda _share: None,
     shard: int = RULE.shard,
+    rank: int = 0,
+    of: int = 1,
 ) -> Corpus:
-    """The plan's drawings as arrays; `progress` is told the share done so far."""
-    parts = max(1, round(plan.total / shard))
-    tasks = (delayed(_shard)(plan, seed, part, parts) for part in range(parts))
+    """The plan's drawings as arrays; `progress` is told the share done so far. With rank `rank` of `of` processes only every
+    `of`-th shard: all of them together have what one alone would, where there are as many shards as processes."""
+    parts = max(of, round(plan.total / shard))
+    own = range(rank, parts, of)
+    tasks = (delayed(_shard)(plan, seed, part, parts) for part in own)
     made: list[Corpus] = []
     for corpus in cast("Iterable[Corpus]", Parallel(n_jobs=jobs, return_as="generator")(tasks)):
         made.append(corpus)
-        progress(len(made) / parts)
+        progress(len(made) / len(own))
     return joined(made)
 
 

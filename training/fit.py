@@ -1,4 +1,4 @@
-"""Fitting the net, reproducibly: the same seed, corpus and thread count give the same weights to the bit,
+"""Fitting the net, reproducibly: the same seed, corpus, and numbers of threads and processes give the same weights to the bit,
 also where training was stopped after an epoch and taken up again."""
 
 from __future__ import annotations
@@ -10,11 +10,13 @@ from pathlib import Path
 import numpy as np
 import torch
 from torch import Tensor, nn
+from torch.nn.parallel import DistributedDataParallel
 
-from training.batches import Answers, answers, batches, look
+from training.batches import Answers, Pages, answers, batches, look
 from training.dataset import Corpus
 from training.drawings import NONE, UNASKED
 from training.nets import SIZE, NetSize, PageNet
+from training.processes import ALONE, Processes
 from training.relations import Relations
 
 
@@ -26,7 +28,7 @@ class FitRule:
     both: int = 1
     """Of these the last ones in which strokes are looked at in both drawing senses, as the finished net does."""
     batch: int = 512
-    """Strokes in a batch, on average."""
+    """Strokes in a batch, on average, of all processes together."""
     rate: float = 4e-3
     """Peak of a one-cycle learning rate (Smith 2018), AdamW."""
     decay: float = 1e-2
@@ -43,6 +45,20 @@ class FitRule:
 
 
 RULE = FitRule()
+OWN = 1_000_003
+"""Between the seeds of two processes' chance."""
+
+
+class Asked(nn.Module):
+    """The net with a corpus before it: a batch of its pages -> the loss of the answers."""
+
+    def __init__(self, net: PageNet, corpus: Corpus, rule: FitRule) -> None:
+        super().__init__()
+        self.net, self.rule = net, rule
+        self.looked, self.relations = look(corpus), Relations()
+
+    def forward(self, batch: list[Pages], flips: np.random.Generator | None) -> Tensor:
+        return loss_of(answers(self.net, self.looked, self.relations, batch, flips), self.rule)
 
 
 def fit(
@@ -53,42 +69,49 @@ def fit(
     progress: Callable[[float, float], None] = lambda _share, _loss: None,
     checkpoint: Path | None = None,
     until: int | None = None,
+    among: Processes = ALONE,
 ) -> PageNet:
     """Trains on the corpus. `progress` is told the share done and the running loss.
 
     checkpoint: where the state is kept after every epoch, and taken up from if it is there; until: the
-    number of epochs after which to stop for now.
+    number of epochs after which to stop for now; among: the processes that train together, each on a corpus of its own: all
+    return the same weights.
     """
     torch.manual_seed(seed)
     torch.use_deterministic_algorithms(True)
-    net, looked, relations = PageNet(size), look(corpus), Relations()
-    steps = max(1, len(corpus.kind) // rule.batch)
+    net = PageNet(size)
+    asked: nn.Module = Asked(net, corpus, rule)
+    if among.count > 1:
+        asked = DistributedDataParallel(asked, find_unused_parameters=True)
+    steps = max(1, among.total(len(corpus.kind)) // rule.batch)
     optimizer = torch.optim.AdamW(net.parameters(), lr=rule.rate, weight_decay=rule.decay)
     schedule = torch.optim.lr_scheduler.OneCycleLR(
         optimizer, max_lr=rule.rate, total_steps=steps * rule.epochs, pct_start=0.2
     )
     begun, running = 0, float(np.log(9))
-    if checkpoint is not None and checkpoint.exists():
-        state = torch.load(checkpoint, weights_only=True)
+    kept = checkpoint is not None and among.leads and checkpoint.exists()
+    state = among.told(torch.load(checkpoint, weights_only=True) if kept and checkpoint else None)
+    if state is not None:
         net.load_state_dict(state["net"])
         optimizer.load_state_dict(state["optimizer"])
         schedule.load_state_dict(state["schedule"])
         begun, running = int(state["epochs"]), float(state["running"])
     net.train()
     for epoch in range(begun, min(until or rule.epochs, rule.epochs)):
-        torch.manual_seed(seed * 1_000 + epoch + 1)
-        order = np.random.default_rng([seed, 1, epoch])
-        flips = np.random.default_rng([seed, 2, epoch]) if epoch < rule.epochs - rule.both else None
+        torch.manual_seed(seed * 1_000 + epoch + 1 + OWN * among.rank)
+        own = [epoch, among.rank] if among.rank else [epoch]
+        order = np.random.default_rng([seed, 1, *own])
+        flips = np.random.default_rng([seed, 2, *own]) if epoch < rule.epochs - rule.both else None
         for step, batch in enumerate(batches(corpus, steps, order)):
             optimizer.zero_grad(set_to_none=True)
-            loss = loss_of(answers(net, looked, relations, batch, flips), rule)
+            loss: Tensor = asked(batch, flips)
             loss.backward()
             nn.utils.clip_grad_norm_(net.parameters(), rule.clip)
             optimizer.step()
             schedule.step()
             running += 0.02 * (float(loss.detach()) - running)
             progress((epoch + (step + 1) / steps) / rule.epochs, running)
-        if checkpoint is not None:
+        if checkpoint is not None and among.leads:
             _keep(checkpoint, net, optimizer, schedule, epoch + 1, running)
     return net.eval()
 

@@ -45,13 +45,6 @@ def numbered(clusters: Sequence[Hashable]) -> tuple[IntArray, int]:
     return numbers, len(places)
 
 
-def share(
-    right: ArrayLike, clusters: Sequence[Hashable], rng: np.random.Generator, level: float = LEVEL
-) -> Interval:
-    """Of rows that are right, (n,) truth values or any numbers whose mean is meant. Raises ValueError of none."""
-    return balanced([right], [0] * len(clusters), clusters, rng, level)[0]
-
-
 def balanced(
     columns: Sequence[ArrayLike],
     kinds: Sequence[Hashable],

@@ -1,8 +1,8 @@
 """Two recognizers on the same rows: who errs less, whether that may be chance, and how much it is.
 
 McNemar's test in its exact form (McNemar 1947), Wilcoxon's signed-rank test (1945) by scipy, and effect sizes that do not
-grow with the number of rows: Cohen's g and the odds ratio of the rows on which they differ, the matched-pairs rank-biserial
-correlation (Kerby 2014), and Cliff's delta (1993).
+grow with the number of rows: Cohen's g and the odds ratio of the rows on which they differ, and the matched-pairs rank-biserial
+correlation (Kerby 2014).
 """
 
 from __future__ import annotations
@@ -87,16 +87,6 @@ def wilcoxon(first: ArrayLike, second: ArrayLike) -> SignedRanks:
     up, down = float(ranks[apart > 0].sum()), float(ranks[apart < 0].sum())
     tested: Any = stats.wilcoxon(apart)
     return SignedRanks(min(up, down), float(tested.pvalue), len(apart), (up - down) / (up + down))
-
-
-def cliffs_delta(first: ArrayLike, second: ArrayLike) -> float:
-    """How much oftener a value of the first is above one of the second than below, −1 to 1, values drawn apart."""
-    one, other = np.sort(np.asarray(first, dtype=float)), np.sort(np.asarray(second, dtype=float))
-    if not len(one) or not len(other):
-        raise ValueError("Cliff's delta needs values on both sides")
-    below = np.searchsorted(other, one, side="left").sum()
-    above = (len(other) - np.searchsorted(other, one, side="right")).sum()
-    return float(below - above) / (len(one) * len(other))
 
 
 def _odds(share: float) -> float:

@@ -6,15 +6,13 @@ Holm's correction (1979), or Nemenyi's critical difference of mean ranks as in D
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import stats
 
-from evaluation.statistics.paired import SignedRanks, wilcoxon
 from sketch.ink import FloatArray
 
 ALPHA = 0.05
@@ -86,14 +84,6 @@ def holm(p: Sequence[float]) -> list[float]:
         worst = max(worst, min(1.0, (len(p) - place) * p[k]))
         adjusted[k] = worst
     return adjusted
-
-
-def all_pairs(columns: Mapping[str, ArrayLike]) -> dict[tuple[str, str], tuple[SignedRanks, float | None]]:
-    """Wilcoxon's test of every two columns of the same suites, with the p that Holm's correction makes of it."""
-    pairs = {(a, b): wilcoxon(columns[a], columns[b]) for a, b in combinations(columns, 2)}
-    tested = [pair for pair, test in pairs.items() if test.p is not None]
-    adjusted = dict(zip(tested, holm([pairs[pair].p or 0.0 for pair in tested]), strict=True))
-    return {pair: (test, adjusted.get(pair)) for pair, test in pairs.items()}
 
 
 def critical_difference(k: int, n: int, alpha: float = ALPHA) -> float:

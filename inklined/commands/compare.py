@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import shlex
 from collections.abc import Sequence
 from datetime import datetime
@@ -13,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from inklined.options import rivals, there
+from inklined.options import ClusterAddress, Jobs, known, rivals, there, workers_of
 from inklined.typed import TYPED
 
 if TYPE_CHECKING:
@@ -26,6 +25,8 @@ SEED = 2026
 REPORT = Path("report.html")
 STROKES, PAGES = 1800, 30
 """Generated when no file is given."""
+READERS = ("net", "dollar-p")
+"""Of handwritten mathematics, as `recognizer.handwriting.roster` has them, which is not loaded for a help text."""
 
 
 def register(app: typer.Typer) -> None:
@@ -78,48 +79,78 @@ def compare(
     stress_pages: Annotated[
         int, typer.Option(min=0, max=1000, help="And the motion of so many generated pages at each level.")
     ] = 0,
+    formulas: Annotated[
+        list[Path] | None,
+        typer.Option(
+            help="Labelled handwritten expressions (LaTeX) to compare readers on, one or more files."
+        ),
+    ] = None,
+    formula_rows: Annotated[
+        int | None,
+        typer.Option(min=1, help="Only so many rows of --formulas, evenly spread. [default: all]"),
+    ] = None,
+    expressions: Annotated[
+        int, typer.Option(min=0, max=100_000, help="Generated handwritten expressions for the readers.")
+    ] = 0,
+    reader: Annotated[
+        list[str] | None,
+        typer.Option(help=f"Which readers of mathematics take part, one or more of {', '.join(READERS)}."),
+    ] = None,
     tables: Annotated[
         Path | None, typer.Option(help="Write every table into this folder, as CSV and LaTeX.")
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the generated ink.")] = SEED,
-    jobs: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
+    jobs: Jobs = 0,
+    cluster: ClusterAddress = None,
 ) -> None:
     """Compare recognizers by what they make of the same ink.
 
     Without --ink the contest runs on generated ink: single strokes, and whole diagrams that are read,
     corrected and set in motion. It prints its tables and writes report.html with pictures of all of it.
-    Published rivals learn from generated ink unless --train gives them people's.
+    Published rivals learn from generated ink unless --train gives them people's. With --formulas or
+    --expressions readers of handwritten mathematics are compared too, or alone.
     """
     from inklined.output import check_writable, write_text
     from inklined.terminal import out, progress
     from recognizer.published import PUBLISHED
     from recognizer.roster import ROSTER
 
-    names = rivals(recognizer or ()) or tuple(ROSTER)
-    strokes = strokes if strokes is not None else 0 if ink else STROKES
-    pages = pages if pages is not None else 0 if ink else PAGES
-    if not ink and not strokes and not pages:
+    readers = known("--reader", reader or READERS, READERS)
+    given = bool(ink or formulas or expressions)
+    strokes = strokes if strokes is not None else 0 if given else STROKES
+    pages = pages if pages is not None else 0 if given else PAGES
+    drawn = bool(ink or strokes or pages or pens or stress or stress_pages)
+    names = (rivals(recognizer or ()) or tuple(ROSTER)) if drawn else ()
+    if not drawn and not formulas and not expressions:
         raise typer.BadParameter("--strokes 0 --pages 0 leaves nothing to compare; give one of them a number")
+    if not drawn and recognizer:
+        raise typer.BadParameter(
+            "--recognizer: there are no strokes and no pages for it; --reader says who reads mathematics"
+        )
     files = there(ink or ())
+    written = there(formulas or ())
     lessons = there(train or ())
+    workers = workers_of(jobs, cluster)
+    if lessons and cluster:
+        raise typer.BadParameter("--train teaches on this machine only; leave --cluster out")
     if lessons and not any(name in PUBLISHED for name in names):
         raise typer.BadParameter(
             f"--train teaches the published rivals; --recognizer names none of {', '.join(PUBLISHED)}"
         )
-    place = report or (None if files else REPORT)
+    place = report or (None if files or written else REPORT)
     for target in (place, json_file):
         if target:
-            check_writable(target, [*files, *lessons])
+            check_writable(target, [*files, *lessons, *written])
 
     with progress() as tell:
-        from evaluation.contest import Extent, whole_contest
+        from evaluation.contest import Extent, Reading, whole_contest
         from evaluation.report import report as report_of
 
         made, begun = datetime.now().astimezone(), perf_counter()
-        workers = jobs or os.cpu_count() or 1
         learnt, names = _taught(lessons, templates, seed, names, tell) if lessons else (None, names)
-        extent = Extent(strokes, pages, pens, stress, stress_pages)
-        contest = whole_contest(files, extent, seed, names, workers, tell, learnt)
+        extent = Extent(strokes, pages, pens, stress, stress_pages, expressions)
+        reading = Reading(readers, tuple(written), formula_rows)
+        contest = whole_contest(files, extent, seed, names, workers, tell, learnt, reading)
         html = report_of(contest, _as_typed(), workers, tell, made) if place else ""
 
     # Files first: a reader of the terminal that hangs up must not cost the figures.
@@ -132,10 +163,9 @@ def compare(
         write_text(json_file, json.dumps(figures, indent=1, ensure_ascii=False) + "\n", files)
     if tables:
         from evaluation.exports import save_tables
-        from evaluation.leaderboard import standings
         from evaluation.report import report_tables
 
-        save_tables(tables, report_tables(contest, standings(contest, contest.seed or 0)))
+        save_tables(tables, report_tables(contest))
     if place:
         write_text(place, html, files)
     _print(contest)
@@ -172,6 +202,7 @@ def _taught(
 
 def _print(contest: Contest) -> None:
     """The contest's tables, and what they do not say."""
+    from evaluation.formula_tables import formula_notes, formula_table
     from evaluation.page_tables import page_notes, page_tables
     from evaluation.tables import recall_table, stroke_notes, stroke_table
     from inklined.terminal import as_rich, out
@@ -188,6 +219,10 @@ def _print(contest: Contest) -> None:
         out.print(as_rich(table))
     for note in page_notes() if paged else ():
         out.print(note, style="dim", markup=False)
+    for suite, results in contest.formulas:
+        out.print(as_rich(formula_table(suite, results)))
+        for note in formula_notes(suite):
+            out.print(note, style="dim", markup=False)
 
 
 def _as_typed() -> str:

@@ -1,16 +1,19 @@
-"""`inklined evaluate`: generated strokes by the million, a shard at a time, on this machine or a cluster."""
+"""`inklined evaluate`: generated strokes, pages or problems by the million, a shard at a time, on this machine or a cluster."""
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from inklined.options import rivals
+from inklined.options import ClusterAddress, Jobs, rivals, workers_of
 
 SEED = 2026
+STROKES = 100_000
+"""Where nothing is said of how many, and of what."""
+SHARDS = {"strokes": 2000, "pages": 20, "problems": 20}
+"""Items of a shard: some seconds of work, so that little is lost with a worker."""
 
 
 def register(app: typer.Typer) -> None:
@@ -24,17 +27,30 @@ def evaluate(
     folder: Annotated[
         Path, typer.Argument(help="Where results are streamed to; a run that was stopped goes on there.")
     ],
-    strokes: Annotated[int, typer.Option(min=1, help="Generated strokes.")] = 100_000,
-    recognizer: Annotated[list[str] | None, typer.Option(help="Who takes part, one or more.")] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Of the generated ink.")] = SEED,
-    shard: Annotated[int, typer.Option(min=1, max=1_000_000, help="Strokes of a shard.")] = 2000,
-    jobs: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
-    cluster: Annotated[
-        str | None,
-        typer.Option(help="Address of a Dask scheduler, tcp://HOST:PORT; its workers do the work."),
+    strokes: Annotated[
+        int | None, typer.Option(min=1, help=f"So many generated strokes. [default: {STROKES}]")
     ] = None,
+    pages: Annotated[
+        int | None, typer.Option(min=1, help="Or generated pages, read, corrected and moved.")
+    ] = None,
+    problems: Annotated[
+        int | None, typer.Option(min=1, help="Or textbook problems in turn, drawn by simulated pens.")
+    ] = None,
+    recognizer: Annotated[
+        list[str] | None,
+        typer.Option(help="Who takes part, one or more; of pages and problems the oracle always does."),
+    ] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Of the generated ink.")] = SEED,
+    shard: Annotated[
+        int | None,
+        typer.Option(
+            min=1, max=1_000_000, help="Items of a shard. [default: 2000 strokes, 20 pages or problems]"
+        ),
+    ] = None,
+    jobs: Jobs = 0,
+    cluster: ClusterAddress = None,
 ) -> None:
-    """Evaluate recognizers on generated strokes of any number, with flat memory.
+    """Evaluate recognizers on generated strokes, pages or problems of any number, with flat memory.
 
     Results are streamed to Parquet in the folder, a part for each shard; what is there already is not made again.
     """
@@ -45,40 +61,34 @@ def evaluate(
     from inklined.terminal import as_rich, out, progress
     from recognizer.roster import ROSTER
 
-    names = rivals(recognizer or ROSTER)
+    asked = {"strokes": strokes, "pages": pages, "problems": problems}
+    given = [name for name, count in asked.items() if count is not None]
+    if len(given) > 1:
+        raise typer.BadParameter(
+            f"{', '.join(f'--{name}' for name in given)}: a folder holds one of them; run each in its own"
+        )
     if folder.exists() and not folder.is_dir():
         raise OutputError(f"{folder} is a file; name a folder for the results")
+    names = rivals(recognizer or ROSTER)
+    workers = workers_of(jobs, cluster)
     with progress() as tell:
-        from evaluation.stream import Run, code_digest, on_cluster, on_this_machine, place, shards
+        from evaluation.page_contest import ORACLE
+        from evaluation.stream import Run, code_of, missing, shards
         from evaluation.stream import evaluate as evaluated
-        from evaluation.table import column, table
+        from evaluation.stream_tables import tally_table
 
-        run = Run(strokes, seed, names, shard, code_digest())
-        there = sum(place(folder, each).exists() for each in shards(run))
-        try:
-            engine = on_cluster(cluster) if cluster else on_this_machine(jobs or os.cpu_count() or 1)
-        except ValueError as error:
-            raise OutputError(str(error)) from None
-        begun = perf_counter()
-        found = evaluated(run, folder, engine, tell)
+        suite = "pages" if pages else "problems" if problems else "strokes"
+        count = asked[suite] or STROKES
+        readers = names if suite == "strokes" else (*names, ORACLE)
+        run = Run(count, seed, readers, suite, shard or SHARDS[suite], code_of(suite))
+        fresh, begun = len(missing(run, folder)), perf_counter()
+        found = evaluated(run, folder, workers, tell)
         seconds = perf_counter() - begun
-    out.print(
-        as_rich(
-            table(
-                f"{strokes} generated strokes, seed {seed}. Shares in %.",
-                [one.name for one in found],
-                {
-                    "accuracy": column([one.accuracy for one in found], 2, 100),
-                    "balanced": column([one.balanced_accuracy for one in found], 2, 100),
-                },
-            )
-        )
-    )
-    fresh = len(shards(run)) - there
-    rate = strokes * fresh / max(1, len(shards(run))) / seconds
+    out.print(as_rich(tally_table(f"{count} generated {suite}, seed {seed}", found)))
+    rate = min(count, run.shard * fresh) / seconds
     memory = getrusage(RUSAGE_SELF).ru_maxrss / 1024
     out.print(
-        f"{fresh} shards made, {there} were there; {seconds:.1f} s, {rate:.0f} strokes a second; peak memory of this process "
-        f"{memory:.0f} MB. Results: {folder}",
+        f"{fresh} shards made, {len(shards(run)) - fresh} were there; {seconds:.1f} s, {rate:.3g} {suite} a second; peak memory "
+        f"of this process {memory:.0f} MB. Results: {folder}",
         markup=False,
     )

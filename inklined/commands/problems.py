@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import json
-import os
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from inklined.options import known, rivals
+from inklined.options import ClusterAddress, Jobs, known, rivals, workers_of
 
 SEED = 2026
 ORACLE = "oracle"
@@ -38,7 +37,8 @@ def problems(
     ] = None,
     json_file: Annotated[Path | None, typer.Option("--json", help="Write all figures here as JSON.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the problems' numbers.")] = SEED,
-    jobs: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
+    jobs: Jobs = 0,
+    cluster: ClusterAddress = None,
 ) -> None:
     """Judge right and wrong answers to textbook problems.
 
@@ -63,7 +63,7 @@ def problems(
 
         chosen = known("--family", family or FAMILIES, FAMILIES)
         asked = [name for name in names() if name[0] in chosen]
-        workers = jobs or os.cpu_count() or 1
+        workers = workers_of(jobs, cluster)
         judged = judge_problems(asked, draws, seed, workers, tell) if draws else ()
         read = read_problems(asked, pens, seed, readers, workers, tell) if pens else ()
 

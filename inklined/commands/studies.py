@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from inklined.options import known, rivals, there
+from inklined.options import ClusterAddress, Jobs, known, rivals, there, workers_of
 
 if TYPE_CHECKING:
     from evaluation.table import Table
 
 SEED = 2026
 PROTOCOLS = ("user-dependent", "user-independent", "zero-shot")
-Jobs = Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")]
 Json = Annotated[Path | None, typer.Option("--json", help="Write all figures here as JSON.")]
 Folder = Annotated[
     Path | None, typer.Option("--tables", help="Write every table into this folder, as CSV and LaTeX.")
@@ -50,6 +48,7 @@ def protocol(
     folds: Annotated[int, typer.Option(min=2, max=10_000, help="Folds of writers that are left out.")] = 5,
     seed: Annotated[int, typer.Option(min=0, help="Of the draws.")] = SEED,
     jobs: Jobs = 0,
+    cluster: ClusterAddress = None,
     json_file: Json = None,
     tables: Folder = None,
 ) -> None:
@@ -92,7 +91,7 @@ def protocol(
                     splits = protocols.zero_shot(rows)
         except ValueError as error:
             raise FileError(", ".join(map(str, files)), str(error)) from None
-        guesses = protocols.examine(rows, splits, names, seed, jobs or os.cpu_count() or 1, tell)
+        guesses = protocols.examine(rows, splits, names, seed, workers_of(jobs, cluster), tell)
         found, fought = examination.marks(rows, guesses, seed), examination.duels(guesses)
     _tell(
         examination.tables(chosen, found, fought),
@@ -109,6 +108,7 @@ def early(
         int, typer.Option(min=2, max=100, help="So many parts of the stroke, one after another.")
     ] = 10,
     jobs: Jobs = 0,
+    cluster: ClusterAddress = None,
     json_file: Json = None,
     tables: Folder = None,
 ) -> None:
@@ -125,7 +125,7 @@ def early(
 
         rows = [row for file in files for row in formats.read(file).rows]
         try:
-            curves = early_curves(rows, names, steps, jobs or os.cpu_count() or 1, tell)
+            curves = early_curves(rows, names, steps, workers_of(jobs, cluster), tell)
         except ValueError as error:
             raise FileError(", ".join(map(str, files)), str(error)) from None
     _tell([early_table(curves)], plain(curves), json_file, tables)
@@ -142,6 +142,7 @@ def stress(
     ] = 0,
     seed: Annotated[int, typer.Option(min=0, help="Of the generated ink.")] = SEED,
     jobs: Jobs = 0,
+    cluster: ClusterAddress = None,
     json_file: Json = None,
     tables: Folder = None,
 ) -> None:
@@ -157,7 +158,7 @@ def stress(
         from evaluation.stress_tables import stress_tables
 
         axes = known("--axis", axis or AXES, AXES)
-        workers = jobs or os.cpu_count() or 1
+        workers = workers_of(jobs, cluster)
         curves = contest.stroke_curves(names, axes, strokes, seed, workers, tell)
         if pages:
             curves += contest.motion_curves(names, axes, pages, seed, workers, tell)

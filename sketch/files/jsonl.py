@@ -21,7 +21,7 @@ import numpy as np
 
 from sketch.files.decimals import shifted, unshifted
 from sketch.files.errors import FileError, Notice
-from sketch.files.store import read_text, write_text
+from sketch.files.store import read_text, written
 from sketch.ink import LIMITS, FloatArray, Ink, InkError, Stroke
 
 _MILLI = 3
@@ -94,13 +94,15 @@ def rows_of(text: str, path: str | Path, read_row: Callable[[str], tuple[Row, li
 
 
 def write(path: str | Path, rows: Iterable[Row]) -> None:
-    """Save the rows, all or nothing. Raises FileError when the folder cannot be written to or a row's
-    `extra` holds what JSON has not."""
-    try:
-        text = "".join(f"{_line(row)}\n" for row in rows)
-    except (TypeError, ValueError) as error:
-        raise FileError(path, f"a row's extra keys cannot be written as JSON: {error}") from None
-    write_text(path, text)
+    """Save the rows, all or nothing, a row at a time in memory. Raises FileError when the folder cannot be written to or a
+    row's `extra` holds what JSON has not."""
+    with written(path) as file:
+        for row in rows:
+            try:
+                line = _line(row)
+            except (TypeError, ValueError) as error:
+                raise FileError(path, f"a row's extra keys cannot be written as JSON: {error}") from None
+            file.write(f"{line}\n".encode())
 
 
 def _line(row: Row) -> str:

@@ -12,7 +12,7 @@ import json
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import islice, pairwise
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, BinaryIO, cast
 
 import numpy as np
 
@@ -31,13 +31,24 @@ LISTS = ("stroke", "x", "y", "t", "p")
 def write(path: str | Path, rows: Iterable[Row], metadata: Mapping[str, str] | None = None) -> int:
     """Saves the rows, whole or not at all, and returns how many there were. Raises FileError when the folder cannot be
     written to or a row's `extra` holds what JSON has not."""
+    with drafted(path) as draft:
+        return pour(draft, rows, metadata, path)
+
+
+def pour(
+    file: BinaryIO,
+    rows: Iterable[Row],
+    metadata: Mapping[str, str] | None = None,
+    path: str | Path = "rows",
+) -> int:
+    """The same into an open file; path: what errors call it. The same rows give the same bytes."""
     import pyarrow as pa
     from pyarrow import parquet
 
     schema = _schema().with_metadata(dict(metadata or {}))
     count = 0
     everything = iter(rows)
-    with drafted(path) as draft, parquet.ParquetWriter(draft, schema, compression="zstd") as writer:
+    with parquet.ParquetWriter(file, schema, compression="zstd") as writer:
         while batch := list(islice(everything, ROWS)):
             columns = _columns(batch, path)
             writer.write_batch(

@@ -10,7 +10,7 @@ from collections.abc import Generator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, cast
 
 from sketch.files.errors import FileError
 
@@ -57,11 +57,19 @@ def write_text(path: str | Path, text: str) -> None:
     Packed when its name ends in .gz, with no time stamp, so that equal text gives equal bytes.
     Raises FileError when the folder cannot be written to.
     """
-    data = text.encode("utf-8")
-    if Path(path).suffix == ".gz":
-        data = gzip.compress(data, compresslevel=6, mtime=0)
+    with written(path) as file:
+        file.write(text.encode("utf-8"))
+
+
+@contextmanager
+def written(path: str | Path) -> Generator[BinaryIO]:
+    """The same for bytes that come little by little: a file to write them to, as `drafted` has it."""
     with drafted(path) as draft:
-        draft.write(data)
+        if Path(path).suffix != ".gz":
+            yield draft
+            return
+        with gzip.GzipFile("", "wb", compresslevel=6, fileobj=draft, mtime=0) as packed:
+            yield cast(BinaryIO, packed)
 
 
 @contextmanager

@@ -8,9 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from data_gen.writing.grammars import mixed
-from evaluation.handwriting import calibration_error
 from evaluation.metrics.mathematics import Found, mistakes, same, signs, structure
-from sketch.writing.rows import Node, latex, row_of
+from sketch.writing.rows import Node, row_of
 
 SEEDS = st.integers(0, 10_000)
 
@@ -55,9 +54,3 @@ def test_a_sign_is_right_when_its_strokes_and_its_name_are() -> None:
     assert found == [Found("x", "X"), Found("2", "2"), Found("=", None)]
     assert [one.right for one in found] == [False, True, False]
     assert [one.merged for one in found] == [True, True, False]
-
-
-def test_calibration_is_perfect_where_belief_and_truth_agree() -> None:
-    assert calibration_error([1.0, 1.0, 0.0, 0.0], [True, True, False, False]) == 0
-    assert calibration_error([0.95] * 4, [False] * 4) == pytest.approx(0.95)
-    assert latex(()) == ""

@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-from evaluation.statistics import intervals, paired, planner, several
+from evaluation.statistics import closed, intervals, paired, planner, several
 
 CLOSE = 1e-9
 
@@ -66,15 +66,6 @@ def test_wilcoxon_of_darwin_s_plants() -> None:
     assert paired.wilcoxon([1, 2], [1, 2]) == paired.SignedRanks(None, None, 0, None)
 
 
-@given(
-    st.lists(st.integers(-5, 5), min_size=1, max_size=12),
-    st.lists(st.integers(-5, 5), min_size=1, max_size=12),
-)
-def test_cliff_s_delta_is_the_count_of_all_pairs(one: list[int], other: list[int]) -> None:
-    pairs = [np.sign(a - b) for a in one for b in other]
-    assert paired.cliffs_delta(one, other) == pytest.approx(float(np.mean(pairs)))
-
-
 def test_holm_is_statsmodels() -> None:
     p = [0.001, 0.04, 0.03, 0.005, 0.2, 0.04]
     assert several.holm(p) == pytest.approx([0.006, 0.12, 0.12, 0.025, 0.2, 0.12], rel=CLOSE)
@@ -114,13 +105,9 @@ def test_recognizers_of_one_mind_do_not_differ() -> None:
         several.friedman([[1, 2]])
 
 
-def test_all_pairs_are_corrected_together() -> None:
-    rng = np.random.default_rng(1)
-    columns = {name: rng.normal(shift, 1, 20) for name, shift in (("a", 0), ("b", 1.5), ("c", 0.1))}
-    pairs = several.all_pairs(columns)
-    raw = [float(stats.wilcoxon(columns[a], columns[b]).pvalue) for a, b in pairs]
-    assert [test.p for test, _ in pairs.values()] == pytest.approx(raw, rel=CLOSE)
-    assert [adjusted for _, adjusted in pairs.values()] == pytest.approx(several.holm(raw), rel=CLOSE)
+def share(right, clusters, rng: np.random.Generator) -> intervals.Interval:
+    """Of rows that are right: all of one kind."""
+    return intervals.balanced([right], [0] * len(clusters), clusters, rng)[0]
 
 
 # Intervals --------------------------------------------------------------------------------------
@@ -148,24 +135,24 @@ def test_an_interval_holds_the_truth_as_often_as_it_says_though_a_writer_s_rows_
 def test_with_each_row_a_writer_the_interval_of_a_share_is_near_the_normal_one() -> None:
     rng = np.random.default_rng(3)
     right = rng.random(900) < 0.7
-    found = intervals.share(right, list(range(900)), rng)
+    found = share(right, list(range(900)), rng)
     reach = 1.96 * np.sqrt(found.value * (1 - found.value) / 900)
     assert (found.low, found.high) == pytest.approx((found.value - reach, found.value + reach), abs=0.004)
     assert (found.n, found.clusters) == (900, 900)
 
 
 def test_where_all_are_right_the_interval_is_clopper_and_pearson_s() -> None:
-    found = intervals.share([1] * 60, [k // 3 for k in range(60)], np.random.default_rng(0))
+    found = share([1] * 60, [k // 3 for k in range(60)], np.random.default_rng(0))
     assert (found.value, found.low, found.high) == pytest.approx((1.0, 0.8315665290169146, 1.0), rel=CLOSE)
-    none = intervals.share([0] * 20, list(range(20)), np.random.default_rng(0))
+    none = share([0] * 20, list(range(20)), np.random.default_rng(0))
     assert (none.low, none.high) == pytest.approx((0.0, 1 - 0.8315665290169146), rel=CLOSE)
 
 
 def test_one_writer_gives_no_interval_and_no_row_no_value() -> None:
-    found = intervals.share([1, 0], ["w", "w"], np.random.default_rng(0))
+    found = share([1, 0], ["w", "w"], np.random.default_rng(0))
     assert (found.value, found.low, found.high) == (0.5, None, None)
     with pytest.raises(ValueError, match="no row"):
-        intervals.share([], [], np.random.default_rng(0))
+        share([], [], np.random.default_rng(0))
 
 
 @settings(max_examples=20, deadline=None)
@@ -188,6 +175,47 @@ def test_rows_of_one_writer_that_are_alike_count_for_fewer() -> None:
     assert intervals.clustering([k // 10 % 2 for k in range(200)], clusters) == pytest.approx((1.0, 10.0))
     alike, effect = intervals.clustering(np.random.default_rng(0).random(200), clusters)
     assert alike < 0.1 and 1 <= effect < 1.9
+
+
+# Closed forms for suites too large to resample -----------------------------------------------------
+
+
+@pytest.mark.parametrize(("right", "n"), [(13, 20), (0, 7), (7, 7), (999_990, 1_000_000)])
+def test_the_interval_of_a_share_is_wilson_s_formula(right: int, n: int) -> None:
+    z, share = stats.norm.ppf(0.975), right / n
+    middle = (share + z**2 / (2 * n)) / (1 + z**2 / n)
+    reach = z / (1 + z**2 / n) * np.sqrt(share * (1 - share) / n + z**2 / (4 * n**2))
+    found = closed.of_share(right, n)
+    assert (found.value, found.n) == (share, n)
+    assert (found.low, found.high) == pytest.approx((middle - reach, middle + reach), rel=CLOSE, abs=1e-12)
+
+
+@given(st.lists(st.floats(-5, 5), min_size=2, max_size=30))
+def test_a_mean_by_sums_is_the_mean_of_the_values(values: list[float]) -> None:
+    array = np.array(values)
+    found = closed.of_mean(len(array), float(array.sum()), float((array**2).sum()))
+    assert found.value == pytest.approx(array.mean(), abs=1e-12)
+    reach = stats.norm.ppf(0.975) * array.std(ddof=1) / np.sqrt(len(array))
+    assert found.high is not None and found.high - found.value == pytest.approx(reach, abs=1e-6)
+    assert closed.of_mean(1, 0.3, 0.09).low is None
+
+
+def test_the_interval_of_mean_recalls_holds_the_truth_as_often_as_it_says() -> None:
+    rng = np.random.default_rng(3)
+    sizes, recalls = np.array([40, 60, 0, 90]), np.array([0.95, 0.7, 0.1, 0.99])
+    truth = recalls[sizes > 0].mean()
+    held = [
+        found.low <= truth <= found.high
+        for found in (closed.of_recalls(rng.binomial(sizes, recalls), sizes) for _ in range(2000))
+        if found.low is not None and found.high is not None
+    ]
+    assert 0.935 <= np.mean(held) <= 0.985
+
+
+@pytest.mark.parametrize("nothing", [lambda: closed.of_share(0, 0), lambda: closed.of_mean(0, 0, 0), lambda: closed.of_recalls([0], [0])])  # fmt: skip
+def test_of_no_row_there_is_no_interval(nothing) -> None:
+    with pytest.raises(ValueError, match="no row"):
+        nothing()
 
 
 # The planner ------------------------------------------------------------------------------------

@@ -5,10 +5,9 @@ from __future__ import annotations
 import gzip
 import json
 
-import numpy as np
 import pytest
 
-from evaluation.stroke_contest import pairings, stroke_contest
+from evaluation.stroke_contest import stroke_contest
 from evaluation.suites import claim_of_row, generated_strokes, strokes_from_files
 from evaluation.summary import stroke_summary
 from evaluation.table import column
@@ -48,18 +47,6 @@ def test_single_and_several_and_all_rows_add_up(results):
         assert result.single.n + result.several.n == result.scores.n == len(SUITE.labels)
         assert result.claimable.n + sum(result.unclaimable.values()) == result.scores.n
         assert sum(result.right) == pytest.approx((result.scores.accuracy or 0) * result.scores.n)
-
-
-def test_pairs_count_the_rows_on_which_just_one_is_right(results):
-    (pair,) = pairings(results)
-    first, second = (np.array(result.right) for result in results)
-    assert pair.only_first - pair.only_second == first.sum() - second.sum()
-    assert pair.only_first + pair.only_second == (first != second).sum()
-
-
-def test_a_recognizer_differs_from_itself_nowhere(results):
-    (pair,) = pairings((results[0], results[0]))
-    assert (pair.only_first, pair.only_second, pair.p) == (0, 0, None)
 
 
 def test_a_row_of_several_strokes_is_claimed_by_the_greatest_sum():

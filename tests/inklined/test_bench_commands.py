@@ -9,10 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from evaluation.cards import rows_hash
 from evaluation.exports import as_latex
+from evaluation.formula_suites import generated_formulas
 from evaluation.table import Cell, Table
 from inklined.cli import run
-from sketch.files import jsonl
+from sketch.files import formats, jsonl
 from sketch.files.jsonl import Row
 from sketch.ink import Ink, Stroke
 
@@ -55,10 +57,13 @@ def test_every_measure_has_its_interval_and_its_n(compared):
         figures["recognizers"]["paper"]["balanced_accuracy"]
     )
     (pair, *_) = figures["statistics"]["pairs"]
-    (old, *_) = figures["pairs"]
-    assert (pair["only_first"], pair["only_second"], pair["p"]) == (
-        old["only_first_right"], old["only_second_right"], old["p"],
-    )  # fmt: skip
+    first, second = (figures["recognizers"][name]["accuracy"] for name in (pair["first"], pair["second"]))
+    assert pair["difference"] == pytest.approx(first - second)
+    assert pair["apart"]["value"] == pytest.approx(pair["difference"])
+    assert pair["apart"]["low"] <= pair["apart"]["value"] <= pair["apart"]["high"]
+    for name in ("paper", "geometric"):
+        memory = figures["recognizers"][name]["memory_mb"]
+        assert 0 <= memory["grown"] < 1000 and memory["learnt"] == 0
 
 
 def test_the_figures_say_where_they_come_from_and_come_again(compared, monkeypatch, capsys):
@@ -79,6 +84,42 @@ def test_the_figures_say_where_they_come_from_and_come_again(compared, monkeypat
     told = capsys.readouterr()
     assert "recognizers.paper.accuracy: 0.123, then" in told.out
     assert "1 figures are not what other.json says" in told.err
+
+
+def test_readers_of_mathematics_are_compared_on_the_same_expressions(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    rows = [
+        Row(row.label, row.ink, f"w{k % 2}", row.extra) for k, row in enumerate(generated_formulas(6, 3).rows)
+    ]
+    jsonl.write(tmp_path / "math.jsonl", [*rows, Row("no { mathematics", rows[0].ink)])
+    words = ["compare", "--formulas", "math.jsonl", "--formula-rows", "3", "--expressions", "1"]
+    words += ["--jobs", "1", "--json", "f.json", "--tables", "tables", "--report", "f.html"]
+    assert run(words) == 0
+    said = capsys.readouterr().out
+    assert "1 rows whose label is no mathematics" in said and "3 rows more are there" in said
+    told = json.loads((tmp_path / "f.json").read_text())
+    assert [one["suite"] for one in told["formulas"]] == ["math.jsonl", "1 generated expressions, seed 2026"]
+    people = told["formulas"][0]["readers"]
+    assert people.keys() == {"net", "dollar-p"}
+    by = {(one["suite"], one["measure"]): one["values"] for one in told["statistics"]["standings"]}
+    for name, one in people.items():
+        right = by["math.jsonl", "expressions right"][name]
+        assert right["n"] == 3 and right["clusters"] == len({f"w{k % 2}" for k in (0, 2, 5)})
+        assert right["value"] == pytest.approx(one["expression_rate"])
+        assert by["math.jsonl", "signs right"][name]["value"] == pytest.approx(one["symbol_accuracy"])
+        assert one["memory_mb"]["grown"] > 1 and one["memory_mb"]["learnt"] > 0.05
+    (pair, *_) = told["statistics"]["pairs"]
+    assert {pair["first"], pair["second"]} == {"net", "dollar-p"} and pair["test"] == "mcnemar"
+    html = (tmp_path / "f.html").read_text()
+    assert 'id="formulas"' in html and told["provenance"]["hashes"]["math.jsonl"] in html
+    assert any("expressions" in path.name for path in (tmp_path / "tables").glob("*.csv"))
+
+
+def test_rows_without_mathematics_are_none_to_compare_readers_on(tmp_path, capsys):
+    place = tmp_path / "bare.jsonl"
+    jsonl.write(place, [Row(None, Ink((Stroke([[0, 0], [1, 1]]),)))])
+    assert run(["compare", "--formulas", str(place)]) == 1
+    assert "no row is labelled with mathematics" in capsys.readouterr().err
 
 
 def test_figures_that_nothing_can_be_had_again_from_are_refused(tmp_path, capsys):
@@ -174,6 +215,11 @@ def test_protocols_on_gestures_of_any_name(gestures, capsys):
         (["early", "gestures.jsonl", "--recognizer", "paper"], 1, "stroke kind"),
         (["stress", "--axis", "weather"], 2, "known are tremor"),
         (["plan", "--first", "0.1", "--second", "0.1"], 2, "cannot be told apart"),
+        (["compare", "--expressions", "2", "--reader", "nobody"], 2, "known are net, dollar-p"),
+        (["compare", "--expressions", "2", "--recognizer", "paper"], 2, "--reader says who reads"),
+        (["evaluate", "out", "--pages", "3", "--problems", "2"], 2, "a folder holds one of them"),
+        (["generate", "strokes", "a.inkml"], 2, "inkml is a file a row"),
+        (["generate", "strokes", "a.jsonl", "--cluster", "tcp://127.0.0.1:1"], 2, "name a folder"),
     ],
 )
 @pytest.mark.usefixtures("gestures")
@@ -181,6 +227,30 @@ def test_what_cannot_be_examined_is_said_in_a_line(words, code, says, capsys):
     assert run(words) == code
     error = capsys.readouterr().err
     assert says in error and error.count("\n") == 1
+
+
+def test_strokes_are_generated_in_any_form_alike(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    words = ["--count", "50", "--seed", "3"]
+    for place in ("a.jsonl.gz", "a.parquet"):
+        assert run(["generate", "strokes", place, *words]) == 0
+    assert run(["generate", "strokes", "parts", *words, "--shard", "20"]) == 0
+    assert "3 parts made, 0 were there" in capsys.readouterr().out
+    assert run(["generate", "strokes", "parts", *words, "--shard", "20"]) == 0
+    assert "0 parts made, 3 were there" in capsys.readouterr().out
+    found = [rows_hash(formats.read(Path(place)).rows) for place in ("a.jsonl.gz", "a.parquet")]
+    parts = [row for part in sorted(Path("parts").glob("*.parquet")) for row in formats.read(part).rows]
+    assert {*found, rows_hash(parts)} == {found[1]}
+
+
+def test_pages_drawn_by_two_processes_are_those_of_one(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for folder, jobs in (("one", "1"), ("two", "2")):
+        assert run(["generate", "pages", folder, "--count", "4", "--seed", "5", "--jobs", jobs]) == 0
+    one, two = (
+        {path.name: path.read_bytes() for path in Path(folder).iterdir()} for folder in ("one", "two")
+    )
+    assert one == two and len(one) == 4
 
 
 def test_early_stress_gestures_and_plans_are_told_and_written(gestures, capsys):
