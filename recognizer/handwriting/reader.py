@@ -18,9 +18,10 @@ import numpy as np
 
 from recognizer.handwriting import language, relations, signs
 from recognizer.handwriting.confidence import believed
+from recognizer.handwriting.contain import Choice, Item
 from recognizer.handwriting.language import Language
 from recognizer.handwriting.layout import RULE as LAYOUT
-from recognizer.handwriting.layout import Choice, Item, LayoutRule, arranged
+from recognizer.handwriting.layout import Layout, LayoutRule
 from recognizer.handwriting.line import Group, Line, box_of, groups, line_of, spaced
 from recognizer.handwriting.relations import Relations, place
 from recognizer.handwriting.segment import Covering, coverings
@@ -136,10 +137,11 @@ class Reader:
         """The reading of a line whose groups have been looked at: scores (groups, signs + 1)."""
         scores = softened(scores, self.rule.doubt)
         ways = coverings(len(line), candidates, scores)
+        items = self._items(line, candidates, scores, {position for way in ways for position in way.groups})
+        layout = Layout(line.scale, self.relations, self.language, self.layout)
         found: dict[str, tuple[float, Row, Covering]] = {}
         for way in ways:
-            items = [self._item(line, candidates[position], scores[position]) for position in way.groups]
-            for ranked in arranged(items, line.scale, self.relations, self.language, rule=self.layout):
+            for ranked in layout.arranged([items[position] for position in way.groups]):
                 row = named(ranked.row)
                 total = ranked.score + way.score
                 if prior is not None:
@@ -159,11 +161,20 @@ class Reader:
         )
         return Reading(row, text, confidence, symbols, others)
 
-    def _item(self, line: Line, group: Group, scores: FloatArray) -> Item:
-        order = np.argsort(-scores[:COUNT], kind="stable")[: self.rule.choices]
-        real = float(np.logaddexp.reduce(scores[:COUNT]))
-        choices = tuple(Choice(int(k), float(scores[k]) - real, Node(SIGNS[k], group)) for k in order)
-        return Item(place(box_of(line, group).tolist()), choices, group)
+    def _items(
+        self, line: Line, candidates: Sequence[Group], scores: FloatArray, used: set[int]
+    ) -> dict[int, Item]:
+        """The groups that are in use as what may lie on the line, each with the signs that it is tried as."""
+        positions = sorted(used)
+        own = scores[positions, :COUNT]
+        shares = own - np.logaddexp.reduce(own, axis=1, keepdims=True)
+        orders = np.argsort(-own, axis=1, kind="stable")[:, : self.rule.choices]
+        items: dict[int, Item] = {}
+        for position, share, order in zip(positions, shares, orders.tolist(), strict=True):
+            group = candidates[position]
+            choices = tuple(Choice(k, float(share[k]), Node(SIGNS[k], group)) for k in order)
+            items[position] = Item(place(box_of(line, group).tolist()), choices, group)
+        return items
 
     def _symbols(
         self, line: Line, row: Row, candidates: Sequence[Group], scores: FloatArray, way: Covering
@@ -189,19 +200,14 @@ def softened(scores: FloatArray, temperature: float) -> FloatArray:
 _SPELT = sorted(((name[1:], name) for name in FUNCTIONS), key=lambda pair: -len(pair[0]))
 
 
+_ENDS = {name[-1] for name in FUNCTIONS}
+
+
 def named(row: Row) -> Row:
     """The row with functions that were read letter by letter as one sign each."""
-    nodes = [
-        replace(
-            node,
-            sub=named(node.sub),
-            sup=named(node.sup),
-            over=named(node.over),
-            under=named(node.under),
-            inside=named(node.inside),
-        )
-        for node in row
-    ]
+    nodes = [_named_within(node) for node in row]
+    if len(nodes) < 2 or not any(node.name in _ENDS for node in nodes):
+        return tuple(nodes)
     at = 0
     while at < len(nodes):
         for letters, name in _SPELT:
@@ -213,3 +219,16 @@ def named(row: Row) -> Row:
                 break
         at += 1
     return tuple(nodes)
+
+
+def _named_within(node: Node) -> Node:
+    if not (node.sub or node.sup or node.over or node.under or node.inside):
+        return node
+    return replace(
+        node,
+        sub=named(node.sub),
+        sup=named(node.sup),
+        over=named(node.over),
+        under=named(node.under),
+        inside=named(node.inside),
+    )
