@@ -71,7 +71,7 @@ def beam(
         score[w] = best[w]
         rows[w, 0] = 0
         rows[w, 0, CHOSEN], rows[w, 0, PARENT], rows[w, 0, TABLE] = at, -1, table
-        off = _bracket(rows[w, 0], brackets[signs[0, at]])
+        off = _bracket(rows[w, 0], int(brackets[signs[0, at]]))
         score[w] -= weights[OPEN] * off
         open_rows[w] = 1
         used[w, signs[0, at]] = True
