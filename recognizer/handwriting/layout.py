@@ -58,7 +58,7 @@ class LayoutRule:
     """Signs before a sign that it may hang on."""
     ends: float = 1.0
     """Weight of how seldom a sign is the last of its row."""
-    fitting: float = 0.5
+    fitting: float = 0.3
     """Weight of how well the extents of two signs fit their boxes."""
     subbed: float = 0.3
     supped: float = 0.0

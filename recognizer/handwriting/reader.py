@@ -31,7 +31,7 @@ from sketch.formula.mathml import mathml
 from sketch.formula.parse import parse
 from sketch.ink import FloatArray, Stroke
 from sketch.writing.rows import Node, Row, formula, latex, nodes_of
-from sketch.writing.signs import FUNCTIONS, SIGNS
+from sketch.writing.signs import FUNCTIONS, NUMBER, SIGNS, TWINS
 
 Prior = Callable[[Row], float]
 """The logarithm of how much a page speaks for a reading: 0 where it says nothing, less where it speaks against."""
@@ -45,6 +45,11 @@ class ReaderRule:
     """Signs that a group is tried as."""
     doubt: float = 1.2
     """The net's opinions are softened by this temperature: people write otherwise than the generator."""
+    twins: float = 0.5
+    """Of how much a letter is rather its capital than its small form, and of the like, this share is believed: it is told by
+    size, and writers differ in it more than the generator's."""
+    each: float = 0.5
+    """Added for each sign: without it few signs of many strokes are likelier than many, for which more has to fit."""
     strokes: int = 160
     """Strokes of the longest line that is read; a longer one is none, and is not read."""
     readings: int = 5
@@ -135,7 +140,7 @@ class Reader:
         self, line: Line, candidates: Sequence[Group], scores: FloatArray, prior: Prior | None = None
     ) -> Reading:
         """The reading of a line whose groups have been looked at: scores (groups, signs + 1)."""
-        scores = softened(scores, self.rule.doubt)
+        scores = softened(scores, self.rule.doubt, self.rule.twins)
         ways = coverings(len(line), candidates, scores)
         items = self._items(line, candidates, scores, {position for way in ways for position in way.groups})
         layout = Layout(line.scale, self.relations, self.language, self.layout)
@@ -143,7 +148,7 @@ class Reader:
         for way in ways:
             for ranked in layout.arranged([items[position] for position in way.groups]):
                 row = named(ranked.row)
-                total = ranked.score + way.score
+                total = ranked.score + way.score + self.rule.each * len(way.groups)
                 if prior is not None:
                     total += max(prior(row), -self.rule.prior_most)
                 text = latex(row)
@@ -191,9 +196,17 @@ class Reader:
         return tuple(found)
 
 
-def softened(scores: FloatArray, temperature: float) -> FloatArray:
-    """Log probabilities at a temperature, normalised again."""
+_TWINS = [np.array([NUMBER[name] for name in family]) for family in TWINS]
+
+
+def softened(scores: FloatArray, temperature: float, twins: float = 1.0) -> FloatArray:
+    """Log probabilities at a temperature, normalised again; twins: at another one among signs of one shape."""
     soft = scores / temperature
+    for family in _TWINS:
+        own = soft[:, family]
+        total = np.logaddexp.reduce(own, axis=1, keepdims=True)
+        own = twins * own
+        soft[:, family] = own + total - np.logaddexp.reduce(own, axis=1, keepdims=True)
     return soft - np.logaddexp.reduce(soft, axis=1, keepdims=True)
 
 

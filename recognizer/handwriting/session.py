@@ -129,8 +129,8 @@ def _surroundings(line: Line, candidates: Sequence[Group], keys: Strokes) -> lis
     high = np.maximum.reduceat(boxes[members, 2:], begins)
     middle = 0.5 * (low + high)
     reach = WINDOW * line.scale
-    near = (boxes[None, :, :2] <= middle[:, None] + reach).all(axis=2)
-    near &= (boxes[None, :, 2:] >= middle[:, None] - reach).all(axis=2)
+    begun = np.all(boxes[None, :, :2] <= middle[:, None] + reach, axis=2)
+    near = np.logical_and(begun, np.all(boxes[None, :, 2:] >= middle[:, None] - reach, axis=2))
     near[np.repeat(np.arange(len(candidates)), sizes), members] = False
     known = np.array(keys)
     return [
