@@ -27,6 +27,7 @@ from data_gen.writing.grammars import general, mixed, physics
 from data_gen.writing.habits import habits
 from data_gen.writing.typeset import written
 from evaluation.handwriting import Read, confusions, read_all, scores
+from evaluation.handwriting_errors import TOLD, errors
 from evaluation.handwritten_pages import judge_all, reads
 from physics.formula.expected import expected
 from recognizer.handwriting.line import line_of, spaced
@@ -50,15 +51,13 @@ def main(arguments: list[str] | None = None) -> int:
         f"python benchmarks/handwriting.py {' '.join(arguments if arguments is not None else sys.argv[1:])}, {date.today()}"
     )
     reader = reader_of(options.reader)
+    if options.errors:
+        table(reader, expressions(Path(options.ink))[: options.most])
+        return 0
     if options.ink:
         folder = Path(options.ink)
         isolated(reader, folder / "symbols-dev.jsonl.gz")
-        rows = [
-            row
-            for row in read(folder / "math-dev.jsonl.gz").rows
-            if row.extra.get("set") == "crohme2013-test"
-        ]
-        found = read_all(rows[: options.most], reader)
+        found = read_all(expressions(folder)[: options.most], reader)
         report("math-dev, crohme2013-test", found)
         for (truth, claim), count in confusions(found).most_common(25):
             print(f"    {truth} read as {claim or '(shared out otherwise)'}: {count}")
@@ -69,6 +68,33 @@ def main(arguments: list[str] | None = None) -> int:
     if options.pages:
         pages(reader, options.pages)
     return 0
+
+
+def expressions(folder: Path) -> list[Row]:
+    """The expressions of people that readers are measured by."""
+    return [
+        row for row in read(folder / "math-dev.jsonl.gz").rows if row.extra.get("set") == "crohme2013-test"
+    ]
+
+
+def table(reader: Reader, rows: Sequence[Row]) -> None:
+    """What goes wrong with people's expressions, and whose fault it is."""
+    found = errors(rows, reader)
+    n = found.rows
+    print(f"{n} expressions of people, set crohme2013-test of math-dev")
+    for told in TOLD:
+        print(
+            f"    told of {told}: right {found.right[told] / n:.1%}, at most one mistake {found.nearly[told] / n:.1%}"
+        )
+    print("signs read as others (strokes right):")
+    print("    " + ", ".join(f"{a} as {b} {k}" for (a, b), k in found.confused.most_common(40)))
+    print(f"signs whose strokes were shared out otherwise, {found.shared.total()} of all:")
+    print("    " + ", ".join(f"{a} {k}" for a, k in found.shared.most_common(25)))
+    print("relations wrong, true signs told:")
+    print("    " + ", ".join(f"{a} as {b} {k}" for (a, b), k in found.related.most_common(12)))
+    print("rows with a construct, and the share whose layout is wrong, true signs told:")
+    for name, count in found.constructs.most_common():
+        print(f"    {name}: {count}, wrong {found.failed[name] / count:.1%}")
 
 
 def isolated(reader: Reader, path: Path) -> None:
@@ -199,6 +225,7 @@ def report(name: str, found: Sequence[Read]) -> None:
 def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--ink", help="folder of people's ink")
+    parser.add_argument("--errors", action="store_true", help="only the table of what goes wrong, and why")
     parser.add_argument("--reader", choices=READERS, default="net")
     parser.add_argument("--most", type=int, default=None, help="rows of people's expressions at most")
     parser.add_argument("--lines", type=int, default=200, help="generated lines of each grammar")

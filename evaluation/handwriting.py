@@ -58,7 +58,7 @@ def read_all(
         begun = time.perf_counter()
         reading = reader.read(row.ink.strokes)
         taken = time.perf_counter() - begun
-        found.append(Read(truth_of(row), reading, taken, tuple(signs(_segmented(row), reading.row))))
+        found.append(Read(truth_of(row), reading, taken, tuple(signs(segmented(row), reading.row))))
         tell(index + 1)
     return found
 
@@ -74,7 +74,8 @@ def truth_of(row: InkRow) -> Row | None:
         return None
 
 
-def _segmented(row: InkRow) -> list[tuple[str, tuple[int, ...]]]:
+def segmented(row: InkRow) -> list[tuple[str, tuple[int, ...]]]:
+    """The signs that the row says were written, each with its strokes; none where it does not say."""
     found: list[tuple[str, tuple[int, ...]]] = []
     written: Any = row.extra.get("symbols")
     for symbol in written if isinstance(written, list) else []:

@@ -1,21 +1,20 @@
 """From signs on a line to rows: fractions and roots by what lies over, under and inside them, scripts by a beam.
 
-Within a region (a line, a numerator, a radicand …) the widest bars and roots are taken first, each with
-the signs over, under or inside it, which are regions again; what is left is read from left to right. A state of the
-beam knows which rows are open: a sign goes on one of them, or begins a script of the last sign of one.
-Frame: page units, y down.
+Within a region (a line, a numerator, a radicand …) bars and roots are taken with the signs over, under or inside them
+(`contain.py`), which are regions again; what is left is read from left to right (`search/beam.py`). Frame: page units, y down.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from heapq import nlargest
 
 import numpy as np
 
+from recognizer.handwriting.contain import Item, Items, Ranked, contained
 from recognizer.handwriting.language import IS_LETTER, LINE, PART, STARTS, Language, Start
-from recognizer.handwriting.relations import FIT, Place, Relations, features, in_order, measures, place
+from recognizer.handwriting.relations import FIT, Relations, features, in_order, measures
 from recognizer.handwriting.search.beam import (
     BAR,
     NORM,
@@ -31,7 +30,7 @@ from recognizer.handwriting.search.beam import (
 )
 from sketch.ink import FloatArray
 from sketch.writing.rows import Node, Row
-from sketch.writing.signs import ACCENTS, EXTENTS, FRACTION, LETTERS, NUMBER, ROOT, SIGNS, extent
+from sketch.writing.signs import EXTENTS, NUMBER, SIGNS, extent
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,15 +54,11 @@ class LayoutRule:
     """Choices of a sign this far below its best are not looked at,"""
     far: float = 7.0
     """nor relations this unlikely."""
-    bar: float = 0.04
-    """Chance of being a fraction's bar from which it is tried."""
-    margin: float = 0.12
-    """How far the middle of a sign over or under a bar may lie beyond its ends, in the line's scale."""
     back: int = 10
     """Signs before a sign that it may hang on."""
     ends: float = 1.0
     """Weight of how seldom a sign is the last of its row."""
-    fitting: float = 0.5
+    fitting: float = 0.3
     """Weight of how well the extents of two signs fit their boxes."""
     subbed: float = 0.3
     supped: float = 0.0
@@ -91,215 +86,52 @@ class LayoutRule:
 RULE = LayoutRule()
 
 
-@dataclass(frozen=True, slots=True)
-class Choice:
-    """What an item may be: its number among the signs, the logarithm of its chance, and its node without scripts."""
+class Layout:
+    """Reads regions of one line, each of them once."""
 
-    sign: int
-    score: float
-    node: Node
+    def __init__(
+        self, scale: float, relations: Relations, language: Language, rule: LayoutRule = RULE
+    ) -> None:
+        self._scale, self._relations, self._language, self._rule = scale, relations, language, rule
+        self._read: dict[tuple[Items, Start], list[Ranked]] = {}
 
+    def arranged(self, items: Sequence[Item], start: Start = "line") -> list[Ranked]:
+        """Readings of a region, the best first."""
+        if not items:
+            return [Ranked((), 0.0)]
+        key = (tuple(items), start)
+        if key not in self._read:
+            found = [
+                ranked
+                for way in contained(tuple(items), self._scale, self.arranged)
+                for ranked in self._beam(way, start)
+            ]
+            self._read[key] = nlargest(self._rule.kept, found, key=lambda ranked: ranked.score)
+        return self._read[key]
 
-@dataclass(frozen=True, slots=True)
-class Item:
-    """A sign, or a fraction or root with all it holds."""
-
-    place: Place
-    choices: tuple[Choice, ...]
-    strokes: tuple[int, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Ranked:
-    """A reading of a region and the logarithm of its weight."""
-
-    row: Row
-    score: float
-
-
-def arranged(
-    items: Sequence[Item],
-    scale: float,
-    relations: Relations,
-    language: Language,
-    start: Start = "line",
-    rule: LayoutRule = RULE,
-) -> list[Ranked]:
-    """Readings of a region, the best first."""
-    if not items:
-        return [Ranked((), 0.0)]
-
-    def inner(part: Sequence[Item], name: Start) -> list[Ranked]:
-        return arranged(part, scale, relations, language, name, rule)
-
-    flat = _accented(_contained(items, scale, inner, rule), scale)
-    ordered = in_order([item.place for item in flat])
-    return _beam([flat[k] for k in ordered], scale, relations, language, start, rule)
-
-
-def _contained(
-    items: Sequence[Item],
-    scale: float,
-    inner: Callable[[Sequence[Item], Start], list[Ranked]],
-    rule: LayoutRule,
-) -> list[Item]:
-    """The items with fractions and roots in place of what they hold, the widest first."""
-    left = list(items)
-    for item in sorted(items, key=lambda item: item.place.box[0] - item.place.box[2]):
-        if item not in left:
-            continue
-        best = item.choices[0].score
-        holds = {choice.sign: choice for choice in item.choices if choice.score > best + np.log(rule.bar)}
-        others = [other for other in left if other is not item]
-        made: Item | None = None
-        taken: list[Item] = []
-        if NUMBER[FRACTION] in holds:
-            made, taken = _fraction(item, holds[NUMBER[FRACTION]], others, scale, inner, rule)
-        if made is None and NUMBER[ROOT] in holds:
-            made, taken = _root(item, holds[NUMBER[ROOT]], others, inner, rule)
-        if made is not None:
-            left = [other for other in others if other not in taken]
-            left.append(made)
-        elif NUMBER[FRACTION] in holds:
-            left = [*others, _unbarred(item)]
-    return left
-
-
-def _fraction(
-    item: Item,
-    bar: Choice,
-    others: Sequence[Item],
-    scale: float,
-    inner: Callable[[Sequence[Item], Start], list[Ranked]],
-    rule: LayoutRule,
-) -> tuple[Item | None, list[Item]]:
-    left, _, right, _ = item.place.box
-    margin = rule.margin * scale
-    reach = [other for other in others if left - margin <= _middle(other) <= right + margin]
-    over = [other for other in reach if other.place.axis < item.place.axis]
-    under = [other for other in reach if other.place.axis >= item.place.axis]
-    if not over or not under:
-        return None, []
-    choices = [
-        Choice(
-            bar.sign,
-            bar.score + above.score + below.score,
-            Node(FRACTION, item.strokes, over=above.row, under=below.row),
+    def _beam(self, unordered: Sequence[Item], start: Start) -> list[Ranked]:
+        language, rule = self._language, self._rule
+        items = [unordered[k] for k in in_order([item.place for item in unordered])]
+        signs, kinds, scores, counts, reaches = _choices(items, rule)
+        found, chosen, parents, hows = beam(
+            signs,
+            kinds,
+            scores,
+            counts,
+            _table(items, reaches, self._scale, self._relations, rule),
+            language.follow,
+            language.letters,
+            language.start[STARTS.index(start)],
+            LINE if start == "line" else PART,
+            IS_LETTER,
+            _BRACKETS,
+            rule.weights,
+            rule.width,
         )
-        for above in inner(over, "over")
-        for below in inner(under, "under")
-    ]
-    return _whole(item, [*over, *under], choices, item.place.axis, rule), [*over, *under]
-
-
-def _root(
-    item: Item,
-    root: Choice,
-    others: Sequence[Item],
-    inner: Callable[[Sequence[Item], Start], list[Ranked]],
-    rule: LayoutRule,
-) -> tuple[Item | None, list[Item]]:
-    left, top, right, bottom = item.place.box
-    slack = 0.12 * (right - left)
-    tall = bottom - top
-    held = [
-        other
-        for other in others
-        if left < _middle(other) < right + slack
-        and top - 0.1 * tall < 0.5 * (other.place.box[1] + other.place.box[3]) < bottom + 0.35 * tall
-        and other.place.box[0] > left + 0.02 * (right - left)
-    ]
-    if not held:
-        return None, []
-    choices = [
-        Choice(root.sign, root.score + one.score, Node(ROOT, item.strokes, inside=one.row))
-        for one in inner(held, "inside")
-    ]
-    return _whole(item, held, choices, None, rule), held
-
-
-def _whole(
-    item: Item, held: Sequence[Item], choices: Sequence[Choice], axis: float | None, rule: LayoutRule
-) -> Item:
-    boxes = np.array([item.place.box, *(other.place.box for other in held)])
-    box = [*boxes[:, :2].min(axis=0).tolist(), *boxes[:, 2:].max(axis=0).tolist()]
-    best = nlargest(rule.kept, choices, key=lambda choice: choice.score)
-    return Item(place(box, axis), tuple(best), item.strokes)
-
-
-def _unbarred(item: Item) -> Item:
-    """A bar with nothing over or under it is a minus sign."""
-    both = (NUMBER[FRACTION], NUMBER["-"])
-    total = float(np.logaddexp.reduce([choice.score for choice in item.choices if choice.sign in both]))
-    rest = [choice for choice in item.choices if choice.sign not in both]
-    minus = Choice(NUMBER["-"], total, Node("-", item.strokes))
-    return replace(item, choices=tuple(sorted([minus, *rest], key=lambda choice: -choice.score)))
-
-
-def _middle(item: Item) -> float:
-    return 0.5 * (item.place.box[0] + item.place.box[2])
-
-
-def _accented(items: Sequence[Item], scale: float) -> list[Item]:
-    """The items with arrows and hats put on the letters that they stand over."""
-    left = list(items)
-    for item in items:
-        mark = item.choices[0]
-        if item not in left:
-            continue
-        if SIGNS[mark.sign] not in ACCENTS:
-            continue
-        below = [
-            other
-            for other in left
-            if other is not item
-            and other.place.box[0] - 0.3 * scale < _middle(item) < other.place.box[2] + 0.3 * scale
-            and item.place.axis < other.place.axis
-            and other.place.box[1] - item.place.box[3] < 0.6 * scale
-            and SIGNS[other.choices[0].sign] in LETTERS
+        return [
+            Ranked(_row_of(items, chosen[k].tolist(), parents[k].tolist(), hows[k].tolist()), float(found[k]))
+            for k in range(min(rule.kept, len(found)))
         ]
-        if not below:
-            continue
-        letter = min(below, key=lambda other: abs(_middle(other) - _middle(item)))
-        choices = tuple(
-            replace(choice, score=choice.score + mark.score, node=replace(choice.node, accent=mark.node))
-            for choice in letter.choices
-            if SIGNS[choice.sign] in LETTERS
-        )
-        left = [other for other in left if other is not item and other is not letter]
-        left.append(replace(letter, choices=choices))
-    return left
-
-
-def _beam(
-    items: Sequence[Item],
-    scale: float,
-    relations: Relations,
-    language: Language,
-    start: Start,
-    rule: LayoutRule,
-) -> list[Ranked]:
-    signs, kinds, scores, counts, reaches = _choices(items, rule)
-    table = _table(items, reaches, scale, relations, rule)
-    found, chosen, parents, hows = beam(
-        signs,
-        kinds,
-        scores,
-        counts,
-        table,
-        language.follow,
-        language.letters,
-        language.start[STARTS.index(start)],
-        LINE if start == "line" else PART,
-        IS_LETTER,
-        _BRACKETS,
-        rule.weights,
-        rule.width,
-    )
-    return [
-        Ranked(_row_of(items, chosen[k].tolist(), parents[k].tolist(), hows[k].tolist()), float(found[k]))
-        for k in range(min(rule.kept, len(found)))
-    ]
 
 
 _BRACKETS = np.zeros(len(SIGNS), dtype=np.int64)

@@ -33,6 +33,14 @@ class GroupRule:
     """The same where one of them is a dot: those of i and j stand high."""
     dot: float = 0.22
     """A stroke smaller than this, in the line's scale, is a dot."""
+    short: float = 0.35
+    """A stroke smaller than this may be the dot of an i that stands"""
+    aside: float = 0.15
+    """at most this far beside it and"""
+    high: float = 1.6
+    """this high above it, in the line's scale."""
+    delayed: int = 5
+    """Nearest strokes that a stroke may be of one sign with although others were drawn between them."""
     strokes: int = 4
     """Strokes of one sign at most, but for a word."""
     word: int = 7
@@ -107,12 +115,23 @@ def groups(line: Line, rule: GroupRule = RULE) -> list[Group]:
                 beside[start:end, start:end].any(axis=1).all() and _in_a_row(line, group)
             ):
                 found.add(group)
-    for i, j in zip(*np.nonzero(np.triu(near, 2)), strict=True):
-        found.add((int(i), int(j)))
-        for k in (int(i) + 1, int(j) + 1, int(j) - 1):
-            if k < count and k not in (i, j) and (near[k, i] or near[k, j]) and k < i + count:
-                found.add(tuple(sorted((int(i), int(j), k))))
+    for i, j in _delayed(line, near, rule):
+        found.add((i, j))
+        for k in (i + 1, j + 1, j - 1):
+            if k < count and k not in (i, j) and (near[k, i] or near[k, j]):
+                found.add(tuple(sorted((i, j, k))))
     return sorted(found)
+
+
+def _delayed(
+    line: Line, near: np.ndarray[tuple[int, int], np.dtype[np.bool_]], rule: GroupRule
+) -> list[tuple[int, int]]:
+    """Near strokes between which others were drawn, each with the nearest few: scribbles would have thousands."""
+    middle = 0.5 * (line.boxes[:, :2] + line.boxes[:, 2:])
+    away = np.where(near, np.linalg.norm(middle[:, None] - middle[None], axis=2), np.inf)
+    rank = np.argsort(np.argsort(away, axis=1), axis=1)
+    chosen = np.triu(near & ((rank < rule.delayed) | (rule.delayed > rank.T)), 2)
+    return [(int(i), int(j)) for i, j in np.argwhere(chosen)]
 
 
 def neighbours(line: Line, rule: GroupRule = RULE) -> np.ndarray[tuple[int, int], np.dtype[np.bool_]]:
@@ -120,12 +139,20 @@ def neighbours(line: Line, rule: GroupRule = RULE) -> np.ndarray[tuple[int, int]
     low, high = line.boxes[:, :2], line.boxes[:, 2:]
     gap = np.maximum(np.maximum(low[:, None] - high[None], low[None] - high[:, None]), 0.0)
     away = np.hypot(gap[..., 0], gap[..., 1])
-    small = (high - low).max(axis=1) < rule.dot * line.scale
+    size = (high - low).max(axis=1)
+    small = size < rule.dot * line.scale
     reach = np.where(small[:, None] | small[None], rule.dotted, rule.near) * line.scale
     # Parallel bars (=) stand further apart than the strokes of a letter.
     flat = (high - low)[:, 1] < 0.35 * (high - low)[:, 0]
     over = (gap[..., 0] == 0) & flat[:, None] & flat[None]
     near = away <= np.where(over, 0.9 * line.scale, reach)
+    # The dot of an i may be a short stroke, and fly high.
+    short = size < rule.short * line.scale
+    near |= (
+        (short[:, None] | short[None])
+        & (gap[..., 0] < rule.aside * line.scale)
+        & (gap[..., 1] < rule.high * line.scale)
+    )
     np.fill_diagonal(near, False)
     return near
 

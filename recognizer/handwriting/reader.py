@@ -18,9 +18,10 @@ import numpy as np
 
 from recognizer.handwriting import language, relations, signs
 from recognizer.handwriting.confidence import believed
+from recognizer.handwriting.contain import Choice, Item
 from recognizer.handwriting.language import Language
 from recognizer.handwriting.layout import RULE as LAYOUT
-from recognizer.handwriting.layout import Choice, Item, LayoutRule, arranged
+from recognizer.handwriting.layout import Layout, LayoutRule
 from recognizer.handwriting.line import Group, Line, box_of, groups, line_of, spaced
 from recognizer.handwriting.relations import Relations, place
 from recognizer.handwriting.segment import Covering, coverings
@@ -30,7 +31,7 @@ from sketch.formula.mathml import mathml
 from sketch.formula.parse import parse
 from sketch.ink import FloatArray, Stroke
 from sketch.writing.rows import Node, Row, formula, latex, nodes_of
-from sketch.writing.signs import FUNCTIONS, SIGNS
+from sketch.writing.signs import FUNCTIONS, NUMBER, SIGNS, TWINS
 
 Prior = Callable[[Row], float]
 """The logarithm of how much a page speaks for a reading: 0 where it says nothing, less where it speaks against."""
@@ -44,6 +45,11 @@ class ReaderRule:
     """Signs that a group is tried as."""
     doubt: float = 1.2
     """The net's opinions are softened by this temperature: people write otherwise than the generator."""
+    twins: float = 0.5
+    """Of how much a letter is rather its capital than its small form, and of the like, this share is believed: it is told by
+    size, and writers differ in it more than the generator's."""
+    each: float = 0.5
+    """Added for each sign: without it few signs of many strokes are likelier than many, for which more has to fit."""
     strokes: int = 160
     """Strokes of the longest line that is read; a longer one is none, and is not read."""
     readings: int = 5
@@ -134,14 +140,15 @@ class Reader:
         self, line: Line, candidates: Sequence[Group], scores: FloatArray, prior: Prior | None = None
     ) -> Reading:
         """The reading of a line whose groups have been looked at: scores (groups, signs + 1)."""
-        scores = softened(scores, self.rule.doubt)
+        scores = softened(scores, self.rule.doubt, self.rule.twins)
         ways = coverings(len(line), candidates, scores)
+        items = self._items(line, candidates, scores, {position for way in ways for position in way.groups})
+        layout = Layout(line.scale, self.relations, self.language, self.layout)
         found: dict[str, tuple[float, Row, Covering]] = {}
         for way in ways:
-            items = [self._item(line, candidates[position], scores[position]) for position in way.groups]
-            for ranked in arranged(items, line.scale, self.relations, self.language, rule=self.layout):
+            for ranked in layout.arranged([items[position] for position in way.groups]):
                 row = named(ranked.row)
-                total = ranked.score + way.score
+                total = ranked.score + way.score + self.rule.each * len(way.groups)
                 if prior is not None:
                     total += max(prior(row), -self.rule.prior_most)
                 text = latex(row)
@@ -159,11 +166,20 @@ class Reader:
         )
         return Reading(row, text, confidence, symbols, others)
 
-    def _item(self, line: Line, group: Group, scores: FloatArray) -> Item:
-        order = np.argsort(-scores[:COUNT], kind="stable")[: self.rule.choices]
-        real = float(np.logaddexp.reduce(scores[:COUNT]))
-        choices = tuple(Choice(int(k), float(scores[k]) - real, Node(SIGNS[k], group)) for k in order)
-        return Item(place(box_of(line, group).tolist()), choices, group)
+    def _items(
+        self, line: Line, candidates: Sequence[Group], scores: FloatArray, used: set[int]
+    ) -> dict[int, Item]:
+        """The groups that are in use as what may lie on the line, each with the signs that it is tried as."""
+        positions = sorted(used)
+        own = scores[positions, :COUNT]
+        shares = own - np.logaddexp.reduce(own, axis=1, keepdims=True)
+        orders = np.argsort(-own, axis=1, kind="stable")[:, : self.rule.choices]
+        items: dict[int, Item] = {}
+        for position, share, order in zip(positions, shares, orders.tolist(), strict=True):
+            group = candidates[position]
+            choices = tuple(Choice(k, float(share[k]), Node(SIGNS[k], group)) for k in order)
+            items[position] = Item(place(box_of(line, group).tolist()), choices, group)
+        return items
 
     def _symbols(
         self, line: Line, row: Row, candidates: Sequence[Group], scores: FloatArray, way: Covering
@@ -180,28 +196,31 @@ class Reader:
         return tuple(found)
 
 
-def softened(scores: FloatArray, temperature: float) -> FloatArray:
-    """Log probabilities at a temperature, normalised again."""
+_TWINS = [np.array([NUMBER[name] for name in family]) for family in TWINS]
+
+
+def softened(scores: FloatArray, temperature: float, twins: float = 1.0) -> FloatArray:
+    """Log probabilities at a temperature, normalised again; twins: at another one among signs of one shape."""
     soft = scores / temperature
+    for family in _TWINS:
+        own = soft[:, family]
+        total = np.logaddexp.reduce(own, axis=1, keepdims=True)
+        own = twins * own
+        soft[:, family] = own + total - np.logaddexp.reduce(own, axis=1, keepdims=True)
     return soft - np.logaddexp.reduce(soft, axis=1, keepdims=True)
 
 
 _SPELT = sorted(((name[1:], name) for name in FUNCTIONS), key=lambda pair: -len(pair[0]))
 
 
+_ENDS = {name[-1] for name in FUNCTIONS}
+
+
 def named(row: Row) -> Row:
     """The row with functions that were read letter by letter as one sign each."""
-    nodes = [
-        replace(
-            node,
-            sub=named(node.sub),
-            sup=named(node.sup),
-            over=named(node.over),
-            under=named(node.under),
-            inside=named(node.inside),
-        )
-        for node in row
-    ]
+    nodes = [_named_within(node) for node in row]
+    if len(nodes) < 2 or not any(node.name in _ENDS for node in nodes):
+        return tuple(nodes)
     at = 0
     while at < len(nodes):
         for letters, name in _SPELT:
@@ -213,3 +232,16 @@ def named(row: Row) -> Row:
                 break
         at += 1
     return tuple(nodes)
+
+
+def _named_within(node: Node) -> Node:
+    if not (node.sub or node.sup or node.over or node.under or node.inside):
+        return node
+    return replace(
+        node,
+        sub=named(node.sub),
+        sup=named(node.sup),
+        over=named(node.over),
+        under=named(node.under),
+        inside=named(node.inside),
+    )

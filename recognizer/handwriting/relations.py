@@ -68,7 +68,7 @@ def measures(
         there = (near >= 0) & (near < len(every))
         near = np.where(there, near, 0)
         columns.append(np.where(there[:, None], _beside(every[near], known, other), 0.0))
-        columns.append(there[:, None])
+        columns.append(there[:, None].astype(np.float64))
         columns.append(np.where(there[:, None], _EYE[extents[near]], 0.0))
     return np.concatenate(columns, axis=1, dtype=np.float32)
 

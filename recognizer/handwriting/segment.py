@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from heapq import nlargest
 
 import numpy as np
 
 from recognizer.handwriting.line import Group
+from recognizer.handwriting.search.cover import cover
 from sketch.ink import FloatArray
 
 
@@ -42,34 +42,22 @@ class Covering:
 def coverings(
     strokes: int, groups: Sequence[Group], scores: FloatArray, rule: SegmentRule = RULE
 ) -> list[Covering]:
-    """The likeliest coverings of strokes 0 … n − 1, the best first; scores (groups, signs + 1) as of `SignReader`."""
+    """The likeliest coverings of strokes 0 … n − 1, the best first; groups as `line.groups` sorts them, scores
+    (groups, signs + 1) as of `SignReader`."""
     real = np.log(np.maximum(-np.expm1(np.minimum(scores[:, -1], -1e-9)), 1e-12))
     sizes = np.array([len(group) for group in groups])
+    members = np.concatenate([np.array(group) for group in groups])
     # Each stroke vouches for its group being a sign and for which: a word is no cheaper than its letters.
     told = scores[:, :-1].max(axis=1) - real
-    value = sizes * (real + told)
+    each = real + told
     best = np.full(strokes, -np.inf)
-    for group, each in zip(groups, (value / sizes).tolist(), strict=True):
-        for stroke in group:
-            best[stroke] = max(best[stroke], each)
-    starting: list[list[tuple[int, float, int]]] = [[] for _ in range(strokes)]
-    for position, group in enumerate(groups):
-        cost = float(value[position] - best[list(group)].sum())
-        starting[group[0]].append((sum(1 << stroke for stroke in group), cost, position))
-    states: list[tuple[float, int, tuple[int, ...]]] = [(0.0, 0, ())]
-    for stroke in range(strokes):
-        found: list[tuple[float, int, tuple[int, ...]]] = []
-        for score, covered, chosen in states:
-            if covered >> stroke & 1:
-                found.append((score, covered, chosen))
-                continue
-            for mask, cost, position in starting[stroke]:
-                if not covered & mask:
-                    found.append((score + cost, covered | mask, (*chosen, position)))
-        states = nlargest(rule.width, found, key=lambda state: state[0])
-    top = states[0][0]
+    np.maximum.at(best, members, np.repeat(each, sizes))
+    ends = np.cumsum(sizes)
+    costs = sizes * each - np.add.reduceat(best[members], ends - sizes)
+    found, chosen, counts = cover(strokes, members, ends, costs, rule.width)
+    value = real * sizes + told * (sizes - 1)
     return [
-        Covering(positions, float((value[list(positions)] - told[list(positions)]).sum()))
-        for score, _, positions in states[: rule.kept]
-        if score > top - rule.unlikely
+        Covering(tuple(chosen[k, : counts[k]].tolist()), float(value[chosen[k, : counts[k]]].sum()))
+        for k in range(min(rule.kept, len(found)))
+        if found[k] > found[0] - rule.unlikely
     ]

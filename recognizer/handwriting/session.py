@@ -11,13 +11,14 @@ strokes stay, a sign as long as its strokes do, so that what was associated with
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from recognizer.group import lines as lines_of
-from recognizer.handwriting.line import Group, groups, line_of, spaced
+from recognizer.handwriting.kernels import WINDOW
+from recognizer.handwriting.line import Group, Line, groups, line_of, spaced
 from recognizer.handwriting.reader import NOTHING, Prior, Reader, Reading
 from sketch.ink import FloatArray, Ink, Stroke
 
@@ -109,7 +110,7 @@ class Session:
             return NOTHING
         line = line_of([spaced(stroke) for stroke in strokes])
         candidates = groups(line)
-        names = [_surroundings(line.boxes, line.scale, group, keys) for group in candidates]
+        names = _surroundings(line, candidates, keys)
         missing = [k for k, name in enumerate(names) if name not in self.looked]
         if missing:
             new = self.reader.signs.scores(line, [candidates[k] for k in missing])
@@ -118,19 +119,24 @@ class Session:
         return self.reader.settled(line, candidates, scores, self.prior)
 
 
-def _surroundings(boxes: FloatArray, scale: float, group: Group, keys: Strokes) -> tuple[object, ...]:
-    """What the net's opinion of a group depends on: its strokes, those around it, the line's scale."""
-    own = boxes[list(group)]
-    middle = 0.5 * (own[:, :2].min(axis=0) + own[:, 2:].max(axis=0))
-    reach = 1.7 * scale
-    near = (
-        (boxes[:, 0] <= middle[0] + reach)
-        & (boxes[:, 2] >= middle[0] - reach)
-        & (boxes[:, 1] <= middle[1] + reach)
-        & (boxes[:, 3] >= middle[1] - reach)
-    )
-    around = tuple(keys[k] for k in np.flatnonzero(near) if k not in group)
-    return (tuple(keys[k] for k in group), around, scale)
+def _surroundings(line: Line, candidates: Sequence[Group], keys: Strokes) -> list[tuple[object, ...]]:
+    """What the net's opinion of each group depends on: its strokes, those around it, the line's scale."""
+    boxes = line.boxes
+    sizes = np.array([len(group) for group in candidates])
+    members = np.concatenate([np.array(group) for group in candidates])
+    begins = np.cumsum(sizes) - sizes
+    low = np.minimum.reduceat(boxes[members, :2], begins)
+    high = np.maximum.reduceat(boxes[members, 2:], begins)
+    middle = 0.5 * (low + high)
+    reach = WINDOW * line.scale
+    begun = np.all(boxes[None, :, :2] <= middle[:, None] + reach, axis=2)
+    near = np.logical_and(begun, np.all(boxes[None, :, 2:] >= middle[:, None] - reach, axis=2))
+    near[np.repeat(np.arange(len(candidates)), sizes), members] = False
+    known = np.array(keys)
+    return [
+        (tuple(keys[k] for k in group), tuple(known[around].tolist()), line.scale)
+        for group, around in zip(candidates, near, strict=True)
+    ]
 
 
 def _heirs(found: list[Strokes], before: tuple[KnownLine, ...]) -> dict[int, KnownLine]:

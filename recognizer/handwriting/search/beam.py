@@ -71,7 +71,7 @@ def beam(
         score[w] = best[w]
         rows[w, 0] = 0
         rows[w, 0, CHOSEN], rows[w, 0, PARENT], rows[w, 0, TABLE] = at, -1, table
-        off = _bracket(rows[w, 0], brackets[signs[0, at]])
+        off = _bracket(rows[w, 0], int(brackets[signs[0, at]]))
         score[w] -= weights[OPEN] * off
         open_rows[w] = 1
         used[w, signs[0, at]] = True
@@ -102,7 +102,7 @@ def beam(
             new_used[w] = used[state]
             new_used[w, sign] = True
             new_open[w] = _next(
-                rows[state], open_rows[state], row, child, at, how, brackets[sign], new_rows[w]
+                rows[state], int(open_rows[state]), row, child, at, how, int(brackets[sign]), new_rows[w]
             )
         score[:held] = new_score
         rows, open_rows, used, states = new_rows, new_open, new_used, held
@@ -208,9 +208,9 @@ def _ways(
                 elif how == SUP:
                     off = weights[SUPPED]
                 if how == RIGHT:
-                    usual += weights[BARE] * _bare(parent, scripts, follow)
+                    usual += weights[BARE] * _bare(int(parent), scripts, follow)
                     off = closing[row]
-                    if _unopened(rows[row], brackets[sign]):
+                    if _unopened(rows[row], int(brackets[sign])):
                         off -= weights[OPEN]
                 elif brackets[sign] == ROUND_CLOSES or brackets[sign] == SQUARE_CLOSES:
                     off -= weights[OPEN]
@@ -254,7 +254,7 @@ def _closed(row: Indices, signs: Indices, follow: FloatArray, weights: FloatArra
     unpaired = row[ROUND] + row[SQUARE] + row[BARS] + row[NORMS]
     last = signs[row[LAST], row[CHOSEN]]
     ends = np.log(follow[row[TABLE], last, len(follow[0])])
-    bare = _bare(last, row[SCRIPTS], follow)
+    bare = _bare(int(last), row[SCRIPTS], follow)
     return weights[LANGUAGE] * weights[ENDS] * (ends + weights[BARE] * bare) - weights[OPEN] * unpaired
 
 
