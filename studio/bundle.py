@@ -3,6 +3,7 @@ its sources.
 
     python -m studio.bundle          makes it if it is not there or stale
     python -m studio.bundle check    type-checks it and runs its unit tests
+    python -m studio.bundle copy FOLDER    copies the page that recognizes without a server, for any static host
 
 npm's registry is asked once, at install; nothing is loaded from anywhere when the studio runs.
 """
@@ -11,6 +12,7 @@ from __future__ import annotations
 
 import fcntl
 import os
+import shutil
 import sys
 from collections.abc import Generator
 from contextlib import contextmanager
@@ -19,6 +21,9 @@ from pathlib import Path
 
 WEB = Path(__file__).parent / "web"
 DIST = WEB / "dist"
+LOCAL = DIST / "local"
+"""The page that recognizes in the browser alone: made where onnxruntime-web could be had."""
+MODEL = Path(__file__).parents[1] / "recognizer" / "learned" / "weights"
 STAMP = DIST / ".made-of"
 CERTIFICATES = (Path("/etc/ssl/certs/ca-certificates.crt"), Path("/etc/pki/tls/certs/ca-bundle.crt"))
 
@@ -31,12 +36,15 @@ def made_of() -> str:
     """A digest of everything that the bundle is made of."""
     hashed = sha256()
     sources = [
+        MODEL / "strokes.json",
         *WEB.glob("*.json"),
         *WEB.glob("*.mjs"),
         *(path for path in (WEB / "src").rglob("*") if path.is_file()),
     ]
     for path in sorted(sources):
-        hashed.update(path.relative_to(WEB).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+        hashed.update(
+            path.relative_to(WEB.parents[1]).as_posix().encode() + b"\0" + path.read_bytes() + b"\0"
+        )
     return hashed.hexdigest()
 
 
@@ -54,6 +62,11 @@ def bundle() -> None:
             return
         install()
         _run(["node", "build.mjs"], "esbuild could not bundle the front end")
+        if (WEB / "node_modules" / "onnxruntime-web").is_dir():  # optional: npm goes on without it
+            _run(
+                ["node", "build.mjs", "local", str(MODEL)],
+                "esbuild could not bundle the page without a server",
+            )
         STAMP.write_text(made_of(), encoding="utf-8")
 
 
@@ -73,6 +86,16 @@ def install() -> None:
     command = ["npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts", "--loglevel=error"]
     _run(command, "npm's registry could not be reached")
     kept.write_bytes(wanted)
+
+
+def copy(folder: Path) -> None:
+    """Copies the page that recognizes without a server. Raises BundleError where it could not be made."""
+    bundle()
+    if not LOCAL.is_dir():
+        raise BundleError(
+            "onnxruntime-web could not be had from npm's registry; run python -m studio.bundle again"
+        )
+    shutil.copytree(LOCAL, folder, dirs_exist_ok=True)
 
 
 def check() -> None:
@@ -118,6 +141,12 @@ def _run(command: list[str], else_: str) -> None:
 
 if __name__ == "__main__":
     try:
-        check() if sys.argv[1:] == ["check"] else bundle()
+        match sys.argv[1:]:
+            case ["check"]:
+                check()
+            case ["copy", folder]:
+                copy(Path(folder))
+            case _:
+                bundle()
     except BundleError as error:
         sys.exit(f"studio: {error}")
