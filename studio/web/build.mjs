@@ -15,10 +15,10 @@ if (what === "studio") {
   await build({ ...page, entryPoints: { studio: "src/main.ts" }, sourcemap: "linked" });
   await copied("src", ["index.html", "icon.svg"]);
 } else if (what === "local") {
-  await build({ ...page, entryPoints: { local: "src/local/main.ts" } });
+  await build({ ...page, entryPoints: { local: "src/local/main.ts" }, nodePaths: ["runtime/node_modules"] });
   await copied("src/local", ["local.html"]);
   await copied("src", ["icon.svg"]);
-  await copied("node_modules/onnxruntime-web/dist", ["ort-wasm-simd-threaded.wasm"]);
+  await copied("runtime/node_modules/onnxruntime-web/dist", ["ort-wasm-simd-threaded.wasm"]);
   await copied(model, ["strokes.onnx", "strokes.json"]);
 } else {
   const tests = (await readdir("tests")).filter((name) => name.endsWith(".test.ts"));
