@@ -52,8 +52,9 @@ def drawn(tab: Page, pen: Pen, truth: Sketch, live: bool = False) -> None:
     )
     if live:
         tab.wait_for_function(
-            "count => document.querySelectorAll('.formula.live math').length === count",
-            arg=len(truth.expressions),
+            """count => inklined.page.writing().reduce((sum, line) => sum + line.strokes.length, 0) === count
+                && document.querySelectorAll('.formula.live math').length === inklined.page.writing().length""",
+            arg=sum(len(line.strokes) for line in truth.expressions),
         )
         picture(tab, f"{len(truth.ink)}-strokes-live")
     tab.click("#analyze")
