@@ -224,6 +224,17 @@ def line_of(
 RAMP = [(150, 350), (450, 350), (450, 160), (150, 350)]
 
 
+PICTURES = os.environ.get("INKLINED_PICTURES")
+"""A folder to put pictures of what was seen in."""
+
+
+def picture(page: Any, name: str) -> None:
+    """Keeps a picture of a Playwright page, without what it says in passing, where pictures are wanted."""
+    if PICTURES:
+        page.evaluate("document.getElementById('toasts').replaceChildren()")
+        page.screenshot(path=str(Path(PICTURES) / f"{name}.png"))
+
+
 def chromium() -> str | None:
     """Debian's Chromium where there is one; None leaves it to Playwright's own."""
     for name in ("/usr/bin/chromium", "/usr/bin/chromium-browser"):

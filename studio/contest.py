@@ -15,17 +15,19 @@ from sketch.page import STROKE_KINDS
 from studio import motion as moving
 from studio.actions import done
 from studio.board import Board
-from studio.reading import analyzed, rival
+from studio.reading import HandReader, analyzed, rival
 from studio.view import shape_json
 
 NOBODY = np.zeros((0, 1), dtype=np.float32)
 
 
-def reading(board: Board, name: str, seconds: float) -> tuple[dict[str, Any], NDArray[np.float32]]:
+def reading(
+    board: Board, name: str, seconds: float, hand: HandReader | None = None
+) -> tuple[dict[str, Any], NDArray[np.float32]]:
     """One recognizer's reading: what it claims of each stroke, the components that come of it, and its motion's frames
-    (see `studio.motion`)."""
+    (see `studio.motion`). hand: who reads handwriting, alike for all."""
     claims = rival(name).recognize(board.sketch.ink)
-    read = done(board, analyzed(board, name, anew=True), lambda _: board.sketch.ink[0])
+    read = done(board, analyzed(board, name, anew=True, hand=hand), lambda _: board.sketch.ink[0])
     head: dict[str, Any] = {
         "type": "reading",
         "name": name,

@@ -23,7 +23,7 @@ from studio.limits import LIMITS
 
 COOKIE = "inklined"
 POLICY = (
-    b"default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; connect-src 'self' ws: wss:; "
+    b"default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; connect-src 'self' ws: wss:; "
     b"frame-ancestors 'none'; base-uri 'none'; form-action 'self'"
 )
 HEADERS: tuple[tuple[bytes, bytes], ...] = (

@@ -4,7 +4,7 @@ in    {"type": "stroke", "key", "points", "times", "pressure", "pointer", "ink"}
       {"type": "analyze", "key", "recognizer", "anew"}    {"type": "undo", "key"}    {"type": "redo", "key"}
       {"type": "run", "run", "seconds"}    {"type": "stop"}    {"type": "observe", "run", "body", "quantity"}
       {"type": "contest", "seconds"}    {"type": "ping"}
-out   status, strokes, state, drawn, ack, verdicts, run, end, error: JSON; piece, series, reading: binary (see
+out   status, strokes, state, drawn, live, ack, verdicts, run, end, error: JSON; piece, series, reading: binary (see
       `studio.motion.packed`)
 """
 
@@ -213,9 +213,10 @@ class Link:
         board = self._session.board
         if not board.names:
             raise Refused("there is no ink on this page that could be read")
+        hand = self._session.hand
         for name in ROSTER:
             head, frames = await asyncio.get_running_loop().run_in_executor(
-                self._desk.runs, reading, board, name, min(seconds, 10.0)
+                self._desk.runs, reading, board, name, min(seconds, 10.0), hand
             )
             self.tell(moving.packed(head, frames))
 

@@ -22,7 +22,7 @@ from studio.gestures import understood, with_lines
 from studio.history import REDO, UNDO, remembered
 from studio.limits import LIMITS, Refused
 from studio.live import Live, begun, live_json, read_on, reader_from
-from studio.reading import GESTURES, analyzed, reader, rival
+from studio.reading import GESTURES, HandReader, analyzed, reader, rival
 from studio.store import Entry, Penned, Store
 from studio.view import Json, Shown, shown, state, stroke_json, verdict_json
 
@@ -79,6 +79,11 @@ class Session:
     def board(self) -> Board:
         """The page as it is."""
         return self._history.board
+
+    @property
+    def hand(self) -> HandReader | None:
+        """A reader of handwriting that knows what has been read as it was written; None where nothing has."""
+        return None if self._live is None else reader_from(self._live)
 
     @property
     def shown(self) -> Shown:
@@ -176,7 +181,7 @@ class Session:
                     raise Refused("there is no ink on this page to be read; draw something first")
                 if self._reading is not None:  # it is reading what is to be read here
                     await asyncio.wait({self._reading}, timeout=LINE)
-                hand = None if self._live is None else reader_from(self._live)
+                hand = self.hand
                 action = await _in(self._work, lambda: analyzed(board, recognizer, anew, hand))
                 await self._take(key, action)
                 await self._changed()

@@ -3,7 +3,6 @@ written corrected by hand, then with a wrong answer and what the page says about
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
@@ -17,21 +16,14 @@ from data_gen.pages import page as generated
 from sketch.formula.parse import parse
 from sketch.formula.print import plain as as_typed
 from sketch.page import Sketch
-from studio_workshop import Pen, loop, plain
-
-PICTURES = os.environ.get("INKLINED_PICTURES")
-"""A folder to put pictures of what was seen in."""
-
-
-def picture(tab: Page, name: str) -> None:
-    if PICTURES:
-        tab.screenshot(path=str(Path(PICTURES) / f"{name}.png"))
+from studio_workshop import PICTURES, Pen, loop, picture, plain
 
 
 def film(tab: Page, name: str, until: float, count: int = 20) -> None:
     """A short GIF of the run, its frames set by the slider of the time."""
     if not PICTURES:
         return
+    tab.evaluate("document.getElementById('toasts').replaceChildren()")
     shots: list[Image.Image] = []
     for seconds in np.linspace(0.0, until, count).tolist():
         tab.evaluate("seconds => { inklined.player.pause(); inklined.player.seek(seconds); }", seconds)
@@ -50,14 +42,21 @@ def film(tab: Page, name: str, until: float, count: int = 20) -> None:
     )
 
 
-def drawn(tab: Page, pen: Pen, truth: Sketch) -> None:
-    """Draws everything and analyzes it."""
+def drawn(tab: Page, pen: Pen, truth: Sketch, live: bool = False) -> None:
+    """Draws everything and analyzes it; live: when every line that was written is shown as it reads."""
     for stroke in truth.ink:
         pen.draw(stroke)
     pen.settled()
     assert tab.evaluate("inklined.page.state.strokes.length") == len(truth.ink), (
         "a stroke was taken for a gesture"
     )
+    if live:
+        tab.wait_for_function(
+            """count => inklined.page.writing().reduce((sum, line) => sum + line.strokes.length, 0) === count
+                && document.querySelectorAll('.formula.live math').length === inklined.page.writing().length""",
+            arg=sum(len(line.strokes) for line in truth.expressions),
+        )
+        picture(tab, f"{len(truth.ink)}-strokes-live")
     tab.click("#analyze")
     tab.wait_for_function("inklined.page.state.components.length > 0")
 
@@ -168,7 +167,7 @@ def test_e6_and_e7_by_ink_alone(
 ) -> None:
     truth = generated(diagram, 7, writer, "right").truth
     tab, pen = opened(new_page())
-    drawn(tab, pen, truth)
+    drawn(tab, pen, truth, live=True)
     read = tab.evaluate("inklined.page.state.lines.map(line => line.text)")
     assert sorted(as_typed(parse(text)) for text in read) == sorted(
         as_typed(parse(line.text)) for line in truth.expressions if line.text

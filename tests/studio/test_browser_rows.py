@@ -16,7 +16,7 @@ from playwright.sync_api import Page
 
 from sketch.files import document, inkml
 from sketch.ink import Ink
-from studio_workshop import RAMP, Client, Pen, Served, client, dense, loop, ring, zigzag
+from studio_workshop import RAMP, Client, Pen, Served, client, dense, loop, picture, ring, zigzag
 
 INK = {
     "ramp": dense(RAMP),
@@ -250,6 +250,8 @@ def test_a_page_is_saved_and_opened_as_a_file_and_the_contest_shows_four_reading
     tab.wait_for_function("document.querySelectorAll('.pane').length === 4")
     names = tab.eval_on_selector_all("[data-reading]", "panes => panes.map(pane => pane.dataset.reading)")
     assert sorted(names) == ["geometric", "hybrid", "learned", "paper"]
+    tab.wait_for_timeout(300)  # the panes are drawn
+    picture(tab, "contest")
     (spot,) = Pen(tab).on_screen([tab.evaluate("[...inklined.page.ink.values()][0].points[3]")])
     tab.mouse.move(*spot)
     tab.wait_for_selector(".tip .claims")

@@ -23,6 +23,8 @@ from websockets.sync.client import connect
 
 from physics.pipeline import move
 from sketch.files import document
+from sketch.ink import Ink, Stroke
+from sketch.page import Sketch
 from studio.limits import LIMITS
 from studio_workshop import PATIENCE, RAMP, Client, Served, client, dense, ring, start, stroke_message
 
@@ -187,6 +189,9 @@ def test_another_site_another_name_and_too_large_a_page_are_refused(studio: Serv
     bare.endheaders()
     assert bare.getresponse().status == 413
     assert asked(f"{studio.url}/api/open?name=a.inklined", "POST", b"{}")[0] == 400
+    crowded = document.dumps(Sketch(Ink(tuple(Stroke([[k, 0]]) for k in range(LIMITS.strokes + 1)))))
+    status, said = asked(f"{studio.url}/api/open?name=a.inklined", "POST", crowded.encode())
+    assert status == 400 and f"at most {LIMITS.strokes}" in said.decode()
     assert asked(f"{studio.url}/api/open?name=a.exe", "POST", b"x")[0] == 400
     assert asked(f"{studio.url}/api/pages/nosuchpage")[0] == 404
     with (

@@ -4,7 +4,7 @@ import { colours, onTheme } from "../ui/theme";
 import { sizes, type Run, type Series } from "../stage/run";
 import type { Chosen } from "../stage/arrows";
 
-interface Graph { plot: uPlot; unit: string; names: string }
+interface Graph { plot: uPlot; now: HTMLElement }
 
 /** Live graphs, one for each unit; a line shows the time, the cursor reads values and a click goes to its time. */
 export class Graphs {
@@ -28,10 +28,7 @@ export class Graphs {
 
   /** Moves the line of the time: all that a frame of play costs. */
   tick(): void {
-    for (const { plot } of this.graphs) {
-      const line = plot.over.querySelector<HTMLElement>(".now");
-      if (line) line.style.transform = `translateX(${plot.valToPos(this.time(), "x").toFixed(1)}px)`;
-    }
+    for (const { plot, now } of this.graphs) now.style.transform = `translateX(${plot.valToPos(this.time(), "x").toFixed(1)}px)`;
   }
 
   private width(): number { return Math.max(160, this.element.clientWidth - 4); }
@@ -58,7 +55,7 @@ export class Graphs {
           series: [
             { label: "t (s)", value: (_, v) => (v === null ? "–" : v.toFixed(3)) },
             ...lines.map((line) => ({
-              label: line.label, stroke: line.colour, width: line.bold ? 2.5 : 1.4, show: line.show, dash: line.dash,
+              label: line.label, stroke: line.colour, width: line.bold ? 2.5 : 1.4, pxAlign: 0, show: line.show, dash: line.dash,
               value: (_: uPlot, v: number | null) => (v === null ? "–" : v.toPrecision(4)),
             })),
           ],
@@ -66,14 +63,15 @@ export class Graphs {
         [times, ...lines.map((line) => line.values)] as uPlot.AlignedData,
         this.element,
       );
-      plot.over.append(el("div", { class: "now" }));
+      const now = el("div", { class: "now" });
+      plot.over.append(now);
       plot.over.addEventListener("click", () => {
         const at = plot.cursor.left;
         if (at !== undefined && at >= 0) this.seek(plot.posToVal(at, "x"));
       });
       plot.root.setAttribute("role", "img");
       plot.root.setAttribute("aria-label", `Graph over time of ${mine.map(({ one }) => `${one.quantity} of ${one.body}`).join(", ")} in ${unit}`);
-      this.graphs.push({ plot, unit, names: mine.map(({ one }) => one.quantity).join() });
+      this.graphs.push({ plot, now });
     }
     this.tick();
   }

@@ -2,6 +2,7 @@
 
 import { api } from "../wire/api";
 import { el } from "../ui/dom";
+import { download } from "../ui/download";
 
 const KINDS: [string, string][] = [
   ["inklined", "Everything (.inklined)"],
@@ -10,13 +11,6 @@ const KINDS: [string, string][] = [
   ["gif", "Motion of 3 s (GIF)"],
   ["mp4", "Motion of 3 s (film, MP4)"],
 ];
-
-export function download(name: string, data: Blob | string, type = "text/plain"): void {
-  const url = URL.createObjectURL(typeof data === "string" ? new Blob([data], { type }) : data);
-  const link = el("a", { href: url, download: name });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(url), 10_000);
-}
 
 /** The layers of the page, one over the other, on paper. */
 export function png(layers: HTMLCanvasElement[], paper: string, name: string): void {

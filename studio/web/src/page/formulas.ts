@@ -36,6 +36,7 @@ export class Formulas {
   private shown = new Map<string, Shown>();
   private bright = new Set<number>();
   private camera: Camera | null = null;
+  private moved = false;
   private lifts = new Map<string, number>();
 
   constructor(private overlay: HTMLElement, private page: PageModel, private edit: (chip: Chip) => void) {}
@@ -68,6 +69,7 @@ export class Formulas {
     }
     for (const gone of before.values()) gone.element.remove();
     this.light(this.bright);
+    this.moved = true;
     if (this.camera) this.place(this.camera); // at once: a chip in the corner for a frame flickers, and is clicked beside
   }
 
@@ -109,8 +111,11 @@ export class Formulas {
     return chip.at ? { at: chip.at, centred: true } : null;
   }
 
+  /** Puts the chips where they belong, for this camera; they stay there until it is another one. */
   place(camera: Camera): void {
+    if (camera === this.camera && !this.moved) return;
     this.camera = camera;
+    this.moved = false;
     for (const { chip, element } of this.shown.values()) {
       const spot = this.spot(chip);
       if (!spot) continue;

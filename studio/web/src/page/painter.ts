@@ -9,10 +9,10 @@ import type { Component, Shape } from "../wire/protocol";
 import type { Formulas } from "./formulas";
 import type { PageModel } from "./page";
 import { between } from "./geometry";
+import type { Ground } from "./ground";
 import { draw } from "./shapes";
 
 const CORRECTING = 450; // ms: ink becomes shapes, and shapes what they were corrected to
-const GRID = 100; // page units: a metre
 
 export interface Scene {
   camera: Camera;
@@ -33,7 +33,7 @@ export class Painter {
   private became = new Map<string, { from: Shape; since: number }>();
   private known = new Map<string, string>();
 
-  constructor(private things: Layer, private dry: Layer, private page: PageModel, private formulas: Formulas) {}
+  constructor(private ground: Ground, private things: Layer, private dry: Layer, private page: PageModel, private formulas: Formulas) {}
 
   /** The page has changed: what is new or has moved goes there by itself. */
   changed(): void {
@@ -60,6 +60,7 @@ export class Painter {
     const selected = new Set(state.selected.strokes);
     const inLines = new Set(state.lines.filter((line) => state.selected.lines.includes(line.line)).flatMap((line) => line.strokes));
     for (const part of state.components) if (state.selected.components.includes(part.label)) part.strokes.forEach((id) => selected.add(id));
+    let drawn = pending.size + scene.fading.size;
     for (const { id, dx, dy, kind } of state.strokes) {
       const stroke = this.page.ink.get(id);
       if (!stroke) continue;
@@ -67,10 +68,12 @@ export class Painter {
       const hidden = owned.has(id) || kind === "tap" || kind === "scribble" || kind === "lasso";
       const alpha = hidden ? (scene.comparing ? 0.5 : this.fadingIn(id)) : 1;
       if (alpha <= 0.01) continue;
+      drawn++;
       const [mx, my] = chosen && scene.drag ? scene.drag : [0, 0];
       this.dryInk.draw(context, { stroke, dx: dx + mx, dy: dy + my, alpha, colour: chosen ? colours().accent : ink });
     }
     for (const stroke of pending.values()) this.dryInk.draw(context, { stroke, dx: 0, dy: 0, alpha: 1, colour: ink });
+    this.dry.canvas.hidden = drawn === 0;
     const now = performance.now();
     for (const [id, { points, since }] of scene.fading) {
       const alpha = 0.8 * (1 - (now - since) / 350);
@@ -83,6 +86,7 @@ export class Painter {
   addStroke(id: string, camera: Camera): void {
     const stroke = this.page.pending.get(id);
     if (!stroke) return;
+    this.dry.canvas.hidden = false;
     this.dry.aim(camera);
     this.dryInk.draw(this.dry.context, { stroke, dx: 0, dy: 0, alpha: 1, colour: colours().ink });
   }
@@ -94,12 +98,11 @@ export class Painter {
   }
 
   draw(scene: Scene): void {
+    this.ground.draw(scene.camera, scene.run, scene.time);
     const context = this.things.begin(scene.camera), now = performance.now();
-    this.grid(context, scene.camera);
     const { state } = this.page;
     const parts = [...state.components].sort((a, b) => order(a) - order(b));
     for (const [label, turn] of this.became) if (now - turn.since > CORRECTING) this.became.delete(label);
-    if (scene.run) this.trails(context, scene);
     for (const part of parts) this.part(context, part, scene, now);
     if (scene.run) drawArrows(context, scene.run, scene.chosen, scene.time, scene.scale);
     else this.leaders(context, scene);
@@ -121,35 +124,6 @@ export class Painter {
     if (selected && scene.drag) context.translate(...scene.drag);
     draw(context, part, shape, { bright, selected, alpha: turn ? 0.25 + 0.75 * t : 1 });
     context.restore();
-  }
-
-  private grid(context: CanvasRenderingContext2D, camera: Camera): void {
-    const wide = this.things.canvas.clientWidth / camera.scale, high = this.things.canvas.clientHeight / camera.scale;
-    const step = GRID * 2 ** Math.max(0, Math.ceil(Math.log2(24 / (GRID * camera.scale))));
-    context.strokeStyle = colours().grid;
-    context.lineWidth = 1 / camera.scale;
-    context.beginPath();
-    for (let x = Math.floor(camera.x / step) * step; x < camera.x + wide; x += step) {
-      context.moveTo(x, camera.y);
-      context.lineTo(x, camera.y + high);
-    }
-    for (let y = Math.floor(camera.y / step) * step; y < camera.y + high; y += step) {
-      context.moveTo(camera.x, y);
-      context.lineTo(camera.x + wide, y);
-    }
-    context.stroke();
-  }
-
-  private trails(context: CanvasRenderingContext2D, scene: Scene): void {
-    context.strokeStyle = colours().faint;
-    context.lineWidth = 1;
-    context.setLineDash([2, 4]);
-    for (const body of scene.run!.head.bodies) {
-      context.beginPath();
-      scene.run!.trail(body.label, scene.time).forEach(([x, y], k) => (k ? context.lineTo(x, y) : context.moveTo(x, y)));
-      context.stroke();
-    }
-    context.setLineDash([]);
   }
 
   /** From formulas to what they govern, of what the person looks at (row P4). */

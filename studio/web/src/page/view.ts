@@ -6,6 +6,7 @@ import type { Point } from "../wire/protocol";
 import { colours, onTheme } from "../ui/theme";
 import { png } from "./files";
 import type { Formulas } from "./formulas";
+import { Ground } from "./ground";
 import type { PageModel } from "./page";
 import { Painter, type Scene } from "./painter";
 
@@ -16,15 +17,17 @@ export class View {
   };
   readonly wet: WetInk;
   readonly painter: Painter;
-  private readonly layers: { things: Layer; dry: Layer; wet: Layer };
+  private readonly layers: { ground: Layer; things: Layer; dry: Layer; wet: Layer };
+  private readonly ground: Ground;
   private queued = false;
   private inkStale = true;
 
   /** playing: whether a run draws its own frames. */
   constructor(private paper: HTMLElement, private page: PageModel, private formulas: Formulas, private playing: () => boolean) {
-    this.layers = { things: new Layer(paper, "things"), dry: new Layer(paper, "dry"), wet: new Layer(paper, "wet", true) };
+    this.layers = { ground: new Layer(paper, "ground"), things: new Layer(paper, "things"), dry: new Layer(paper, "dry"), wet: new Layer(paper, "wet", true) };
     this.wet = new WetInk(this.layers.wet);
-    this.painter = new Painter(this.layers.things, this.layers.dry, page, formulas);
+    this.ground = new Ground(this.layers.ground);
+    this.painter = new Painter(this.ground, this.layers.things, this.layers.dry, page, formulas);
     new ResizeObserver(() => this.resize()).observe(paper);
     onTheme(() => this.stale(true));
     this.resize();
@@ -77,7 +80,7 @@ export class View {
   }
 
   picture(name: string): void {
-    png([this.layers.things.canvas, this.layers.dry.canvas], colours().paper, `${name}.png`);
+    png([this.layers.ground.canvas, this.layers.things.canvas, this.layers.dry.canvas], colours().paper, `${name}.png`);
   }
 
   /** Draws what moves: all that a frame of play costs here. */
@@ -96,6 +99,7 @@ export class View {
       const fading = this.scene.fading.size > 0 || this.painter.busy;
       if (this.inkStale || fading) this.painter.ink(this.scene);
       this.inkStale = false;
+      this.layers.wet.canvas.hidden = this.scene.run !== null; // a layer that shows nothing costs as much as any
       if (!this.playing()) this.painter.draw(this.scene);
       if (fading) this.stale(true);
     });
@@ -104,6 +108,7 @@ export class View {
   private resize(): void {
     const { clientWidth: wide, clientHeight: high } = this.paper;
     for (const layer of Object.values(this.layers)) layer.resize(wide, high);
+    this.ground.resized();
     this.stale(true);
   }
 }

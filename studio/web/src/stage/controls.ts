@@ -10,6 +10,8 @@ export interface Drives {
   seek(seconds: number): void;
 }
 
+const READABLE = 60; // ms: nobody reads a clock that is quicker, and a slider costs a frame of play more than all else
+
 export class Controls {
   readonly run = el("button", { type: "button", class: "primary", id: "run", title: "Run or pause (Enter)", onclick: () => this.drives.toggle() }, "Run");
   private readonly slider = el("input", {
@@ -25,6 +27,8 @@ export class Controls {
     el("label", { class: "bare" }, "", this.speedChoice()),
     this.slider, this.clock);
   readonly element = el("span", { class: "controls" }, this.run, this.length, this.moving);
+
+  private told = 0;
 
   constructor(private drives: Drives) {}
 
@@ -42,7 +46,11 @@ export class Controls {
     this.length.hidden = moving;
   }
 
-  tick(time: number, until: number): void {
+  /** The time has gone on; atOnce: not only as often as it can be read. */
+  tick(time: number, until: number, atOnce: boolean): void {
+    const now = performance.now();
+    if (!atOnce && now - this.told < READABLE) return;
+    this.told = now;
     if (this.slider.max !== String(until)) this.slider.max = String(until);
     this.slider.value = String(time);
     const text = `${time.toFixed(2)} s`;

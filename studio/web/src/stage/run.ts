@@ -71,15 +71,10 @@ export class Run {
     return [x1, y1, x2, y2].every(Number.isFinite) ? { shape: { ...drawn, start: [x1, y1], end: [x2, y2] } } : null;
   }
 
-  /** The way of a body's centre so far, thinned. */
-  trail(label: string, seconds: number, most = 400): Point[] {
-    const k = this.head.bodies.findIndex((body) => body.label === label);
-    const last = this.at(seconds).row, step = Math.max(1, Math.ceil(last / most)), c = 1 + 3 * k;
-    const points: Point[] = [];
-    for (let row = 0; row <= last; row += step) {
-      points.push([this.data[row * this.columns + c]!, this.data[row * this.columns + c + 1]!]);
-    }
-    return points;
+  /** Where the centre of a body, by its place in the head, is in a frame. */
+  centre(body: number, row: number): Point {
+    const at = row * this.columns + 1 + 3 * body;
+    return [this.data[at]!, this.data[at + 1]!];
   }
 
   times(): number[] { return Array.from({ length: this.rows }, (_, row) => this.time(row)); }

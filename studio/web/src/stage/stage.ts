@@ -5,8 +5,8 @@ import { hit } from "../page/page";
 import type { View } from "../page/view";
 import { csv } from "../graph/csv";
 import { Graphs } from "../graph/graphs";
-import { download } from "../page/files";
 import { el, say } from "../ui/dom";
+import { download } from "../ui/download";
 import type { Packed, Point, RunHead, Told } from "../wire/protocol";
 import { scales, type Chosen } from "./arrows";
 import { Controls } from "./controls";
@@ -34,6 +34,7 @@ export class Stage {
   /** Whether anything has been run to its end since the page was opened. */
   ran = false;
   private runs = 0;
+  private marked = 0;
   private readonly graphs: Graphs;
   private readonly observing: Observing;
   private readonly happened = el("ul", { class: "happened" });
@@ -179,9 +180,18 @@ export class Stage {
   }
 
   private list(run: Run): void {
+    this.marked = 0;
     this.happened.replaceChildren(...run.events.slice(0, MOST_TOLD).map((event) =>
       el("li", { "data-time": event.time }, el("button", { type: "button", onclick: () => this.seek(event.time) }, `${event.time.toFixed(2)} s: ${event.message}`))));
     if (run.events.length > MOST_TOLD) this.happened.append(el("li", { class: "faint" }, `and ${run.events.length - MOST_TOLD} more`));
+  }
+
+  /** Marks what has happened by now. */
+  private past(run: Run): void {
+    const now = run.events.slice(0, MOST_TOLD).filter((event) => event.time <= this.player.time + 1e-9).length;
+    const { children } = this.happened;
+    for (; this.marked < now; this.marked++) children[this.marked]?.classList.add("past");
+    while (this.marked > now) children[--this.marked]?.classList.remove("past");
   }
 
   private saveCsv(): void {
@@ -193,9 +203,9 @@ export class Stage {
   private tick(): void {
     const { run } = this;
     if (run) {
-      this.controls.tick(this.player.time, run.until);
+      this.controls.tick(this.player.time, run.until, !this.player.playing);
       this.graphs.tick();
-      for (const item of this.happened.children) item.classList.toggle("past", Number(item.getAttribute("data-time")) <= this.player.time + 1e-9);
+      this.past(run);
     }
     this.view().frame(this.player.time);
     if (!this.player.playing) this.show();
