@@ -102,9 +102,9 @@ def line_graph(
         colour = COLOURS[k % len(COLOURS)]
         dashes = ' stroke-dasharray="5 2"' if k >= len(COLOURS) else ""
         if name in spread:
-            low, high = (list(zip(x.tolist(), end.tolist(), strict=True)) for end in spread[name])
+            below, above = (list(zip(x.tolist(), end.tolist(), strict=True)) for end in spread[name])
             parts.append(
-                f'<polygon points="{path([*low, *high[::-1]])}" fill="{colour}" fill-opacity="0.13"/>'
+                f'<polygon points="{path([*below, *above[::-1]])}" fill="{colour}" fill-opacity="0.13"/>'
             )
         for run in _runs(x, y, layout.points):
             parts.append(
