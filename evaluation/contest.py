@@ -13,7 +13,7 @@ from evaluation.lessons import Lesson
 from evaluation.page_contest import ORACLE, PageResult, page_contest
 from evaluation.parallel import Progress, Workers, silent
 from evaluation.stress import AXES
-from evaluation.stress_contest import Curve, Groups, groups, motion_curves, stroke_curves
+from evaluation.stress_contest import Curve, Groups, under_stress
 from evaluation.stroke_contest import StrokeResult, stroke_contest
 from evaluation.suites import (
     PageSuite,
@@ -141,11 +141,8 @@ def whole_contest(
         penned = read_problems(list(every_problem()), extent.pens, seed, readers, workers, progress)
         contest = replace(contest, penned=penned)
     if extent.stress or extent.stress_pages:
-        axes = tuple(AXES)
-        curves = stroke_curves(names, axes, extent.stress, seed, workers, progress) if extent.stress else []
-        if extent.stress_pages:
-            curves += motion_curves(names, axes, extent.stress_pages, seed, workers, progress)
-        told = groups(names, extent.stress, seed, workers, progress) if extent.stress else []
+        levels = (extent.stress, extent.stress_pages)
+        curves, told = under_stress(names, tuple(AXES), levels, seed, workers, progress)
         contest = replace(contest, curves=tuple(curves), groups=tuple(told))
     suites = [formulas_from_files(reading.files, reading.most)] if reading.files else []
     suites += [generated_formulas(extent.formulas, seed)] if extent.formulas else []

@@ -102,7 +102,7 @@ def ink_picture(ink: Ink, width: float, look: Look = LOOK) -> str:
     """SVG of ink alone."""
     view = view_around(np.concatenate([stroke.points for stroke in ink]), look)
     pen = pen_for(view, look)
-    return picture([draw_path(stroke.points, pen, WRITTEN, 1.6) for stroke in ink], view, width, look)
+    return picture([draw_path(stroke.points, pen, WRITTEN, 0.9) for stroke in ink], view, width, look)
 
 
 def _square(view: View) -> View:

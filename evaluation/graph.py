@@ -1,4 +1,4 @@
-"""A small line graph as SVG, for curves through time.
+"""A small line graph as SVG, for curves through time or along an axis, with their intervals where they have any.
 
 Frame: SVG pixels, y down, inside a viewBox; text and axes take the colour of the text around them
 (`currentColor`), so that the graph suits light and dark pages.
@@ -16,7 +16,9 @@ import numpy as np
 from sketch.ink import FloatArray
 
 COLOURS = ("#3b7dd8", "#d8703b", "#3b9c6b", "#a05bc0", "#b8952a", "#c0506b")
-"""One a curve, in turn; mid-tones that read on white and on near-black."""
+"""One a curve, in turn; mid-tones that read on white and on near-black. Beyond them curves are dashed."""
+MARKED = 25
+"""Curves of so many points at most have each of them marked: between them nothing was measured."""
 
 SMALLEST = 0.05
 """Step of an axis at least, in its unit: what stands still must not look alive for its rounding errors."""
@@ -48,11 +50,16 @@ def line_graph(
     x_label: str,
     y_label: str,
     layout: GraphLayout = LAYOUT,
+    bands: Mapping[str, tuple[FloatArray, FloatArray]] | None = None,
+    guide: tuple[FloatArray, FloatArray] | None = None,
 ) -> str:
     """SVG of curves by name, each (x, y) of (n,) values; axes start at 0 or below the smallest value.
-    Values that are not finite break the curve. Without any finite value the axes stand alone."""
+    Values that are not finite break the curve. Without any finite value the axes stand alone.
+
+    bands: for curves of these names how low and how high each value may be, (n,) each; guide: a dotted line to compare with."""
+    spread = bands or {}
     xs = _finite([x for x, _ in curves.values()])
-    ys = _finite([y for _, y in curves.values()])
+    ys = _finite([*(y for _, y in curves.values()), *(end for band in spread.values() for end in band)])
     x_ticks, y_ticks = _ticks(xs, layout.ticks), _ticks(ys, layout.ticks)
     wide = layout.width - layout.left - layout.right
     high = layout.height - layout.top - layout.bottom
@@ -82,11 +89,29 @@ def line_graph(
         parts.append(_text(layout.left - 5, down(tick) + 3.5, f"{tick:g}", "end"))
     parts.append(_text(layout.left + wide / 2, layout.height - 6, x_label, "middle"))
     parts.append(_text(2, 12, y_label, "start"))
+
+    def path(run: Sequence[tuple[float, float]]) -> str:
+        return " ".join(f"{across(a):.1f},{down(b):.1f}" for a, b in run)
+
+    if guide is not None:
+        for run in _runs(*guide, layout.points):
+            parts.append(
+                f'<polyline points="{path(run)}" fill="none" stroke="currentColor" stroke-opacity="0.5" stroke-dasharray="1.5 3"/>'
+            )
     for k, (name, (x, y)) in enumerate(curves.items()):
         colour = COLOURS[k % len(COLOURS)]
+        dashes = ' stroke-dasharray="5 2"' if k >= len(COLOURS) else ""
+        if name in spread:
+            below, above = (list(zip(x.tolist(), end.tolist(), strict=True)) for end in spread[name])
+            parts.append(
+                f'<polygon points="{path([*below, *above[::-1]])}" fill="{colour}" fill-opacity="0.13"/>'
+            )
         for run in _runs(x, y, layout.points):
-            path = " ".join(f"{across(a):.1f},{down(b):.1f}" for a, b in run)
-            parts.append(f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="1.8"/>')
+            parts.append(
+                f'<polyline points="{path(run)}" fill="none" stroke="{colour}" stroke-width="1.8"{dashes}/>'
+            )
+            if len(x) <= MARKED:
+                parts += [f'<circle cx="{across(a):.1f}" cy="{down(b):.1f}" r="2" fill="{colour}"/>' for a, b in run]  # fmt: skip
         parts.append(
             f'<text x="{names_at}" y="{names_from + 12 * k}" text-anchor="{anchor}" '
             f'fill="{colour}" font-weight="600">{escape(name)}</text>'

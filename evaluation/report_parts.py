@@ -29,6 +29,7 @@ from evaluation.stress_tables import stress_tables
 from evaluation.stroke_contest import StrokeResult
 from evaluation.table import Table
 from evaluation.textbook_pens import pens_table
+from sketch.ink import FloatArray
 from sketch.writing.rows import latex
 
 RISING, FALLING = GraphLayout(names="top left"), GraphLayout(names="bottom left")
@@ -79,13 +80,23 @@ def stress_of(contest: Contest) -> dict[str, Any]:
         own = [curve for curve in contest.curves if (curve.axis, curve.measure) == (axis, measure)]
         told = "balanced accuracy, %" if measure == "accuracy" else "motion error, %"
         n = own[0].values[0].n
-        curves = {curve.name: _along(curve) for curve in own}
+        curves = {curve.name: _along(curve, [value.value for value in curve.values]) for curve in own}
+        bands = {
+            curve.name: (
+                _along(curve, [value.value if value.low is None else value.low for value in curve.values])[1],
+                _along(curve, [value.value if value.high is None else value.high for value in curve.values])[
+                    1
+                ],
+            )
+            for curve in own
+        }
         what = "strokes" if measure == "accuracy" else "pages"
+        names_at = FALLING if measure == "accuracy" else RISING
         figures.append(
             _figure(
                 AXES[axis].about,
-                f"{n} {what} at each level",
-                line_graph(curves, _axis(axis), told, FALLING if measure == "accuracy" else RISING),
+                f"{n} {what} at each level, 95 % intervals",
+                line_graph(curves, _axis(axis), told, names_at, bands),
             )
         )
     return {"figures": figures, "tables": stress_tables(contest.curves, contest.groups)}
@@ -177,9 +188,8 @@ def _confidence(
     about: str, results: Sequence[StrokeResult] | Sequence[FormulaResult]
 ) -> list[dict[str, Any]]:
     """What the confidence of each is worth, as two figures."""
-    even = np.array([0.0, 1.0])
-    reliable = {"perfect": (100 * even, 100 * even)}
-    risks = {}
+    even = np.array([0.0, 100.0])
+    reliable, risks = {}, {}
     for result in results:
         bins = reliability(result.sure, result.right)
         reliable[result.name] = (
@@ -189,7 +199,11 @@ def _confidence(
         risk = risk_coverage(result.sure, result.right)
         risks[result.name] = (100 * np.array(risk.coverage), 100 * np.array(risk.risk))
     return [
-        _figure("Reliability", about, line_graph(reliable, "confidence, %", "right, %", RISING)),
+        _figure(
+            "Reliability",
+            f"{about}; dotted: as right as sure",
+            line_graph(reliable, "confidence, %", "right, %", RISING, guide=(even, even)),
+        ),
         _figure(
             "Risk when the unsure are refused",
             about,
@@ -198,8 +212,8 @@ def _confidence(
     ]
 
 
-def _along(curve: Curve) -> tuple[Any, Any]:
-    """A curve's levels as they lie on its axis: percent as percent, rates as the time between points."""
+def _along(curve: Curve, values: Sequence[float]) -> tuple[FloatArray, FloatArray]:
+    """A curve's levels as they lie on its axis, percent as percent, rates as the time between points; and values at them in %."""
     levels = np.array(curve.levels)
     if AXES[curve.axis].unit == "Hz":
         levels = np.where(np.isinf(levels), 0.0, 1000.0 / np.where(np.isinf(levels), 1.0, levels))
@@ -208,7 +222,7 @@ def _along(curve: Curve) -> tuple[Any, Any]:
     elif curve.axis == "scale":
         levels = np.log2(levels)
     order = np.argsort(levels, kind="stable")
-    return levels[order], 100 * np.array([value.value for value in curve.values])[order]
+    return levels[order], 100 * np.array(values)[order]
 
 
 def _axis(axis: str) -> str:

@@ -55,16 +55,36 @@ class Groups:
         return min(self.values, key=lambda group: self.values[group].value)
 
 
-def stroke_curves(
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """Recognizers of these names on `count` items of a seed along some axes."""
+
+    names: tuple[str, ...]
+    axes: tuple[str, ...]
+    count: int
+    seed: int
+
+
+def under_stress(
     names: Sequence[str],
     axes: Sequence[str],
-    count: int,
+    extent: tuple[int, int],
     seed: int,
     workers: Workers = 1,
     progress: Progress = silent,
-) -> list[Curve]:
-    """The accuracy of every recognizer on `count` generated strokes along each axis. A stroke whose order alone changes is still
+) -> tuple[list[Curve], list[Groups]]:
+    """Every recognizer along each axis, and on each group of writers. extent: so many generated strokes, and so many pages, at
+    each level; groups are told by strokes."""
+    strokes, pages = (Trial(tuple(names), tuple(axes), count, seed) for count in extent)
+    curves = stroke_curves(strokes, workers, progress) if strokes.count else []
+    curves += motion_curves(pages, workers, progress) if pages.count else []
+    return curves, groups(names, strokes.count, seed, workers, progress) if strokes.count else []
+
+
+def stroke_curves(of: Trial, workers: Workers = 1, progress: Progress = silent) -> list[Curve]:
+    """The accuracy of every recognizer on generated strokes along each axis. A stroke whose order alone changes is still
     one stroke: axes that need several are told by pages."""
+    names, axes, count, seed = of.names, of.axes, of.count, of.seed
     made = generate(count, seed)
     inks, labels = [Ink((item.stroke,)) for item in made], [item.kind for item in made]
     settings = [(axis, level) for axis in axes for level in AXES[axis].levels]
@@ -88,15 +108,9 @@ def stroke_curves(
     ]
 
 
-def motion_curves(
-    names: Sequence[str],
-    axes: Sequence[str],
-    count: int,
-    seed: int,
-    workers: Workers = 1,
-    progress: Progress = silent,
-) -> list[Curve]:
-    """The mean motion error of every recognizer on `count` generated pages along each axis that leaves the motion what it was."""
+def motion_curves(of: Trial, workers: Workers = 1, progress: Progress = silent) -> list[Curve]:
+    """The mean motion error of every recognizer on generated pages along each axis that leaves the motion what it was."""
+    names, axes, count, seed = of.names, of.axes, of.count, of.seed
     chosen = [axis for axis in axes if AXES[axis].moves]
     settings = tuple((axis, level) for axis in chosen for level in AXES[axis].levels)
     tasks = [(page, k, tuple(names), settings, seed) for k, page in enumerate(pages(count, seed))]

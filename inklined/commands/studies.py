@@ -159,10 +159,7 @@ def stress(
 
         axes = known("--axis", axis or AXES, AXES)
         workers = workers_of(jobs, cluster)
-        curves = contest.stroke_curves(names, axes, strokes, seed, workers, tell)
-        if pages:
-            curves += contest.motion_curves(names, axes, pages, seed, workers, tell)
-        by_group = contest.groups(names, strokes, seed, workers, tell)
+        curves, by_group = contest.under_stress(names, axes, (strokes, pages), seed, workers, tell)
     figures = {"seed": seed, "strokes": strokes, "pages": pages, **contest.plain(curves, by_group)}
     _tell(stress_tables(curves, by_group), figures, json_file, tables)
 
@@ -225,17 +222,30 @@ def plan(
     ] = 0.0,
     alpha: Annotated[float, typer.Option(min=1e-6, max=0.5, help="Of the test.")] = 0.05,
     power: Annotated[float, typer.Option(min=0.05, max=0.999, help="To be reached.")] = 0.8,
+    margin: Annotated[
+        float | None,
+        typer.Option(help="Plan one recognizer's interval instead: it is to reach so far to either side,"),
+    ] = None,
+    share: Annotated[
+        float, typer.Option(help="of about this share that is right; a half needs the most rows.")
+    ] = 0.5,
 ) -> None:
-    """How many rows and writers does a comparison need, so that McNemar's exact test finds the difference?"""
-    from evaluation.statistics.planner import rows_for_difference
+    """How many rows and writers does a comparison need, so that McNemar's exact test finds the difference? Or, with --margin, a
+    share's interval?"""
+    from evaluation.statistics.planner import rows_for_difference, rows_for_margin
     from inklined.terminal import out
 
     try:
-        made = rows_for_difference(first, second, per_writer, alike, alpha, power)
+        made = (
+            rows_for_difference(first, second, per_writer, alike, alpha, power)
+            if margin is None
+            else rows_for_margin(share, margin, per_writer, alike, alpha)
+        )
     except ValueError as error:
         raise typer.BadParameter(str(error)) from None
+    reached = f"margin {margin:g}" if made.power is None else f"power {made.power:.3f}"
     out.print(
-        f"{made.rows} rows by {made.writers} writers: power {made.power:.3f} at alpha {alpha:g}, design effect {made.effect:.2f}"
+        f"{made.rows} rows by {made.writers} writers: {reached} at alpha {alpha:g}, design effect {made.effect:.2f}"
     )
 
 

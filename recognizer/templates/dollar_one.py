@@ -85,10 +85,5 @@ def _at_angle(drawing: FloatArray, template: FloatArray, angle: float) -> float:
 class DollarOne(Compared):
     """Drawings as the paper's steps 1 to 3 leave them, point by point at the best angle."""
 
-    @staticmethod
-    def described(drawings: Sequence[Ink]) -> FloatArray:
-        return normalised(drawings)
-
-    @staticmethod
-    def apart(drawings: FloatArray, templates: FloatArray) -> FloatArray:
-        return _distances(drawings, templates)
+    described = staticmethod(normalised)
+    apart = staticmethod(_distances)

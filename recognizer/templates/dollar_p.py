@@ -66,10 +66,5 @@ def _given(cloud: FloatArray, other: FloatArray, start: int, enough: float) -> f
 class DollarP(Compared):
     """Clouds, the points of one given to those of the other."""
 
-    @staticmethod
-    def described(drawings: Sequence[Ink]) -> FloatArray:
-        return normalised(drawings)
-
-    @staticmethod
-    def apart(drawings: FloatArray, templates: FloatArray) -> FloatArray:
-        return _distances(drawings, templates)
+    described = staticmethod(normalised)
+    apart = staticmethod(_distances)

@@ -9,7 +9,7 @@
 
 A statement is a line that begins with a point, and goes on until the next. Read are .COORD (X, Y, T in milliseconds, P),
 .PEN_DOWN and .PEN_UP, .SEGMENT, .WRITER_ID (or .WRITER), .HIERARCHY and .POINTS_PER_SECOND, from which times are made where
-there is no T; all others are passed over. Pen-down components are numbered from 0 through the file. Segments of the
+there is no T; .INCLUDE is remarked, since no other file is opened; all others are passed over. Pen-down components are numbered from 0 through the file. Segments of the
 hierarchy's finest level that occurs are the rows; a file without segments is one row. A segment names its components as
 `0-3,5`; a cut within one (`3:12`) takes the component whole, and says so. UNIPEN's Y grows upward, ours downward.
 Written are labels, writers, times and pressure; a row's other keys have no place in the format.
@@ -136,6 +136,8 @@ def _take(found: _File, line: int, keyword: str, body: list[str]) -> None:
         case ".WRITER_ID" | ".WRITER":
             label = _LABEL.search(body[0])
             found.writer = _unquoted(label) if label else " ".join(words) or None
+        case ".INCLUDE":
+            found.remark(line, f".INCLUDE names {' '.join(words)!r}, another file, which is not read")
         case ".HIERARCHY":
             found.hierarchy = tuple(words)
         case ".POINTS_PER_SECOND":

@@ -16,7 +16,7 @@ from evaluation import examination, protocols
 from evaluation.early import early_curves
 from evaluation.metrics.calibration import reliability, risk_coverage
 from evaluation.stress import AXES, stressed
-from evaluation.stress_contest import groups, stroke_curves
+from evaluation.stress_contest import Trial, groups, stroke_curves
 from sketch.files.jsonl import Row
 from sketch.ink import Ink, Stroke
 
@@ -169,7 +169,7 @@ def test_each_axis_does_what_it_says():
 
 def test_stress_is_the_contest_at_the_first_level_and_the_worst_group_the_lowest():
     made = generate(45, 6)
-    curves = stroke_curves(["paper"], ["gap", "order"], 45, 6)
+    curves = stroke_curves(Trial(("paper",), ("gap", "order"), 45, 6))
     right = protocols.examine(
         [Row(item.kind, Ink((item.stroke,))) for item in made],
         [protocols.Split((), tuple(range(45)), 0, 0)],

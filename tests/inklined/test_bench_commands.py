@@ -268,3 +268,5 @@ def test_early_stress_gestures_and_plans_are_told_and_written(gestures, capsys):
     assert figures(gestures)["relative_accuracy"].keys() == set(SHAPES)
     assert run(["plan", "--first", "0.08", "--second", "0.02", "--per-writer", "20", "--alike", "0.1"]) == 0
     assert "design effect 2.90" in capsys.readouterr().out
+    assert run(["plan", "--margin", "0.05"]) == 0
+    assert "385 rows by 385 writers: margin 0.05" in capsys.readouterr().out

@@ -249,6 +249,24 @@ def test_unipen_names_every_segment_and_component_that_is_lost(tmp_path: Path) -
     ]  # fmt: skip
 
 
+def test_unipen_s_own_definitions_and_included_files_are_no_ink(tmp_path: Path) -> None:
+    """The format defines itself by .RESERVE and .KEYWORD statements, which a file may repeat; labels may stand in a file that
+    includes the ink's."""
+    path = tmp_path / "a.unipen"
+    head = (
+        '.RESERVE [N] Number: 1 2 3\n.KEYWORD .PEN_DOWN [N] [.]\nBegin of a component.\n.ALPHABET "a" "b"\n'
+    )
+    path.write_text(head + SAMPLE)
+    assert [row.label for row in unipen.read(path).rows] == ["i", 't"\\']
+    path.write_text(
+        '.INCLUDE lib/ink.dat\n.COORD X Y\n.PEN_DOWN\n0 0\n.PEN_UP\n.SEGMENT CHARACTER 0 OK "a"\n'
+    )
+    loaded = unipen.read(path)
+    assert [row.label for row in loaded.rows] == ["a"]
+    assert [(notice.line, notice.lost) for notice in loaded.notices] == [(1, False)]
+    assert "lib/ink.dat" in str(loaded.notices[0])
+
+
 def test_a_parquet_file_of_others_is_refused_by_its_columns(tmp_path: Path) -> None:
     import pyarrow as pa
     from pyarrow import parquet as arrow
