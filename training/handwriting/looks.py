@@ -12,6 +12,7 @@ import json
 import tempfile
 import warnings
 from pathlib import Path
+from typing import cast
 
 import onnx
 import torch
@@ -200,7 +201,7 @@ class Looks(nn.Module):
         drawn = torch.cat([ink, (image * PIXELS).double()[:, None]], dim=1).transpose(0, 1)
         drawn = drawn[:, :, None].expand(-1, -1, self.rule.points - 1).flatten(1)
         whole = ends.long()
-        row = torch.cat([origin, stride, drawn])[:, owner_of(whole, whole[-1])]
+        row = torch.cat([origin, stride, drawn])[:, owner_of(whole, cast(int, whole[-1]))]
         spot = row[:2] + torch.arange(row.shape[1]) * row[2:4]
         corner = torch.floor(spot)
         inside = (spot.amin(dim=0) >= 0.0) & (spot.amax(dim=0) < SIDE - 1.0)
@@ -215,7 +216,7 @@ class Looks(nn.Module):
         return torch.clamp(filled, max=1.0).reshape(batch, IMAGES, SIDE, SIDE)
 
 
-def owner_of(ends: Tensor, total: Tensor | int) -> Tensor:
+def owner_of(ends: Tensor, total: int) -> Tensor:
     """For each of `total` places which of the runs that end at `ends` (s,) it lies in; runs may be empty."""
     marks = torch.zeros_like(torch.arange(total + 1))
     return torch.cumsum(marks.scatter_add(0, ends, torch.ones_like(ends)), dim=0)[:-1]
