@@ -96,11 +96,11 @@ def _exported(module: nn.Module, example: dict[str, Tensor], outputs: tuple[str,
             dynamo=False,
         )
         model = onnx.load(file)
-    _settled(model.graph)
+    settled(model.graph)
     return model
 
 
-def _settled(graph: GraphProto) -> None:
+def settled(graph: GraphProto) -> None:
     """Stores numbers as numbers, not as operators that yield them, and leaves out what is for debugging: machine
     paths are not for shipping."""
     operators = list(graph.node)

@@ -23,10 +23,15 @@ LEAST = 1e-100
 
 
 class Spaced(nn.Module):
-    """Cleaning and resampling: repeats have no length, so equal spacing along the path leaves them out.
+    """Cleaning and resampling to `count` points: repeats have no length, so equal spacing along the path leaves them out.
 
-    -> paths (s, 64, 2) float64 page units, distinct (s,) float32 different points, first and last (s + 1,) the places
-    of each stroke's ends among the points; of strokes without points, and in the row of the padding, anything."""
+    Of `page` only how many strokes there are matters. -> paths (s, count, 2) float64 page units, distinct (s,) float32
+    different points, first and last (s + 1,) the places of each stroke's ends among the points; of strokes without
+    points, and in the row of the padding, anything."""
+
+    def __init__(self, count: int = POINTS) -> None:
+        super().__init__()
+        self.count = count
 
     def forward(self, points: Tensor, stroke: Tensor, page: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
         strokes = page.shape[0]
@@ -39,19 +44,19 @@ class Spaced(nn.Module):
         length = nn.functional.pad(torch.linalg.vector_norm(points[1:] - points[:-1], dim=1), (1, 0))
         line = torch.cumsum(length, dim=0)
         begin = line[first]
-        scale = (POINTS - 1) / torch.clamp(line[last] - begin, min=LEAST)
-        # A point's place along its stroke, 0 to 63; how many points of all come before each whole place.
+        scale = (self.count - 1) / torch.clamp(line[last] - begin, min=LEAST)
+        # A point's place along its stroke, 0 to count − 1; how many points of all come before each whole place.
         place = (line - begin[owner]) * scale[owner]
         moves = torch.cumsum((length > 0).float(), dim=0)
-        slot = owner * POINTS + torch.clamp(torch.ceil(place), 0, POINTS - 1).long()
-        at = torch.zeros((strokes + 1) * POINTS, dtype=torch.int64).scatter_add(0, slot, ones)
-        passed = torch.cumsum(at, dim=0).reshape(-1, POINTS)
+        slot = owner * self.count + torch.clamp(torch.ceil(place), 0, self.count - 1).long()
+        at = torch.zeros((strokes + 1) * self.count, dtype=torch.int64).scatter_add(0, slot, ones)
+        passed = torch.cumsum(at, dim=0).reshape(-1, self.count)
         # The step that each wanted place lies on; the end lies on one that leads nowhere.
         known = torch.cat([points, place[:, None]], dim=1)
         here = known[passed - 1]
         ahead = known[torch.minimum(passed, last[:, None])] - here
         (spot, place_here), (way, width) = here.split([2, 1], dim=2), ahead.split([2, 1], dim=2)
-        wanted = torch.arange(POINTS, dtype=torch.float64)[:, None]
+        wanted = torch.arange(self.count, dtype=torch.float64)[:, None]
         share = torch.clamp((wanted - place_here) / torch.clamp(width, min=LEAST), 0.0, 1.0)
         distinct = moves[last] - moves[first] + 1.0
         return (spot + share * way)[:strokes], distinct[:strokes], first, last

@@ -28,6 +28,9 @@ NUMBERS = 6
 """Width, height (logarithms, in the line's scale), whether the scale is known, strokes, length, straightness."""
 STEP = 0.45
 """Pixels between the dots that a line is drawn with."""
+SURE = 1e-9
+"""Share of the ink's length by which a place may lie beyond a step's end and still be on it: where the ink ends is not
+left to rounding, which differs from one machine to the next."""
 
 
 @kernel
@@ -98,7 +101,7 @@ def _sequence(
         for i in range(start, end - 1):
             dx, dy = points[i + 1, 0] - points[i, 0], points[i + 1, 1] - points[i, 1]
             part = np.hypot(dx, dy)
-            while place < POINTS and part > 0 and wanted <= done + part:
+            while place < POINTS and part > 0 and wanted <= (done + part) * (1.0 + SURE):
                 share = (wanted - done) / part
                 out[0, place] = 2 * (points[i, 0] + share * dx - x) / size
                 out[1, place] = 2 * (points[i, 1] + share * dy - y) / size

@@ -35,6 +35,7 @@ from training.handwriting.calibrate import calibrate
 from training.handwriting.corpus import JUNK, Example, laid_out, shards
 from training.handwriting.export import exported, save
 from training.handwriting.fit import RULE, fit
+from training.handwriting.looks import looks
 from training.progress import Tell, progress
 
 HERE = Path(__file__).parents[2] / "recognizer" / "handwriting" / "weights"
@@ -79,6 +80,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             "numbers": torch.zeros(4, NUMBERS),
         }
         save(exported(net, shown, "scores"), out / "signs.onnx")
+        save(looks(), out / "looks.onnx")
         curve, read = calibrate(_reader(out), options.judged, options.seed)
         (out / "confidence.json").write_text(json.dumps(asdict(curve), indent=1) + "\n", "utf-8")
         tell("confidence", 1.0, "")
