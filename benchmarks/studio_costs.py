@@ -5,7 +5,8 @@
 load: a first load over loopback, milliseconds and bytes; pen: work in each pointer event with 500 strokes on the page;
 analyze: from the click to the drawn page of 40 strokes, of which the lines have been read as they are while one draws; formula: from pressing a key to the formula shown; live: from a pen-up
 to the MathML of the line that it went on with, the 40 strokes of a page drawn one after the other; play: milliseconds between
-frames, and of work in them, with 20 bodies and three graphs. Figures hang on what else the machine does: its load is told.
+frames, and of work in them, with 20 bodies and three graphs. Figures hang on what else the machine does: its load is told. What does
+not is the CPU time of the server's part of live and of analyze, which is measured apart, in this process (--cpu: it alone).
 """
 
 from __future__ import annotations
@@ -16,8 +17,10 @@ import os
 import tempfile
 import time
 import urllib.request
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from playwright.sync_api import Page, sync_playwright
@@ -28,14 +31,26 @@ from sketch.files import document
 from sketch.ink import Ink
 from sketch.page import Component, Sketch
 from sketch.shapes import Circle, Polygon
+from studio.actions import done
+from studio.board import Board
+from studio.live import begun, read_on, reader_from
+from studio.reading import HandReader, analyzed, reader
+from studio.view import shown
 from studio_workshop import Pen, Served, chromium, dense, ring, served
+
+T = TypeVar("T")
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="The studio in Chromium.")
     parser.add_argument("--times", type=int, default=20, help="analyses")
     parser.add_argument("--json", type=Path)
+    parser.add_argument("--cpu", action="store_true", help="measure the server's CPU time only")
     options = parser.parse_args()
+    figures: dict[str, Any] = {"server's part, ms of CPU": _cpu(options.times)}
+    if options.cpu:
+        print(json.dumps(figures, indent=1))
+        return
     with (
         tempfile.TemporaryDirectory() as folder,
         served(Path(folder), warm=True) as studio,
@@ -47,7 +62,7 @@ def main() -> None:
         context.add_init_script("localStorage.setItem('inklined-guided', 'done')")
         tab = context.new_page()
         tab.set_default_timeout(300_000)
-        figures = {
+        figures |= {
             "load average": os.getloadavg()[0],
             "load": _load(tab, studio),
             "pen, ms an event": _pen(tab, studio),
@@ -60,6 +75,40 @@ def main() -> None:
     print(json.dumps(figures, indent=1))
     if options.json:
         options.json.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
+
+
+def _cpu(times: int) -> dict[str, Any]:
+    """Milliseconds of this process's CPU: a line going on by a stroke, as the 40 of a page are drawn; the page analyzed then,
+    and analyzed where nothing had been read before."""
+    ink = _forty().truth.ink
+    names = tuple(f"s{k}" for k in range(len(ink)))
+
+    def board(count: int) -> Board:
+        return Board(names[:count], Sketch(Ink(ink.strokes[:count])), ((0.0, 0.0),) * count)
+
+    def spent(job: Callable[[], T]) -> tuple[float, T]:
+        began = time.process_time()
+        result = job()
+        return 1000 * (time.process_time() - began), result
+
+    whole = board(len(ink))
+    analyzed(whole)  # all is loaded and compiled
+    live, pen_ups = begun(), list[float]()
+    for count in range(1, len(ink) + 1):
+        took, live = spent(partial(read_on, live, board(count), reader()))
+        pen_ups.append(took)
+    known = [spent(lambda: shown(after(whole, reader_from(live))))[0] for _ in range(times)]
+    anew = [spent(lambda: shown(after(whole, None)))[0] for _ in range(times)]
+    return {
+        "pen-up": _spread(pen_ups),
+        "analyze": _spread(known),
+        "analyze, nothing read before": _spread(anew),
+    }
+
+
+def after(board: Board, hand: HandReader | None) -> Board:
+    """The board when it has been analyzed."""
+    return done(board, analyzed(board, hand=hand), lambda name: board.sketch.ink[int(name[1:])])
 
 
 def _ready(studio: Served) -> None:
