@@ -93,7 +93,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "rule": asdict(replace(RULE, epochs=options.epochs)),
         "parameters": sum(p.numel() for p in net.parameters()) + sum(p.numel() for p in related.parameters()),
         "lines_of_hard_hands_read_right": round(read, 4),
-        "minutes": round((time.monotonic() - begun) / 60, 1),
+        "minutes_of_this_start": round((time.monotonic() - begun) / 60, 1),
         "torch": torch.__version__,
         "date": date.today().isoformat(),
     }
