@@ -36,7 +36,7 @@ from studio.board import Board
 from studio.live import begun, read_on, reader_from
 from studio.reading import HandReader, analyzed, reader
 from studio.view import shown
-from studio_workshop import Pen, Served, chromium, dense, ring, served
+from studio_workshop import Pen, Served, chromium, dense, ready, ring, served
 
 T = TypeVar("T")
 
@@ -56,7 +56,7 @@ def main() -> None:
         served(Path(folder), warm=True) as studio,
         sync_playwright() as playwright,
     ):
-        _ready(studio)
+        ready(studio)
         browser = playwright.chromium.launch(executable_path=chromium(), args=["--no-sandbox"])
         context = browser.new_context(viewport={"width": 1280, "height": 800}, bypass_csp=True)
         context.add_init_script("localStorage.setItem('inklined-guided', 'done')")
@@ -109,11 +109,6 @@ def _cpu(times: int) -> dict[str, Any]:
 def after(board: Board, hand: HandReader | None) -> Board:
     """The board when it has been analyzed."""
     return done(board, analyzed(board, hand=hand), lambda name: board.sketch.ink[int(name[1:])])
-
-
-def _ready(studio: Served) -> None:
-    while not json.loads(urllib.request.urlopen(f"{studio.url}/api/status").read())["ready"]:
-        time.sleep(1)
 
 
 def _spread(values: list[float]) -> dict[str, float]:

@@ -34,6 +34,7 @@ from studio_workshop import (
     Served,
     client,
     dense,
+    ready,
     ring,
     served,
     start,
@@ -51,8 +52,7 @@ def main() -> None:
     figures: dict[str, Any] = {"load average": os.getloadavg()[0]}
     if options.clients or options.bad:
         with tempfile.TemporaryDirectory() as folder, served(Path(folder), warm=True) as studio:
-            while not json.loads(urllib.request.urlopen(f"{studio.url}/api/status").read())["ready"]:
-                time.sleep(1)
+            ready(studio)
             figures["clients"] = _crowd(studio, options.clients) if options.clients else None
             figures["bad messages"] = _bad(studio, options.bad) if options.bad else None
     if options.kills:

@@ -11,6 +11,7 @@ import struct
 import subprocess
 import sys
 import time
+import urllib.request
 from collections.abc import Generator, Iterable, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -89,6 +90,17 @@ def served(folder: Path, warm: bool = False) -> Generator[Served]:
         yield studio
     finally:
         studio.kill()
+
+
+def ready(studio: Served, patience: float = 1200.0) -> None:
+    """Waits until everything is loaded and compiled: on a fresh and busy machine that takes minutes."""
+    until = time.monotonic() + patience
+    while time.monotonic() < until:
+        with urllib.request.urlopen(f"{studio.url}/api/status", timeout=PATIENCE) as answer:
+            if json.loads(answer.read())["ready"]:
+                return
+        time.sleep(0.5)
+    raise AssertionError(f"the studio was not ready within {patience:.0f} s")
 
 
 @dataclass

@@ -11,7 +11,7 @@ import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
 
 from studio.bundle import bundle
-from studio_workshop import PATIENCE, Pen, Served, chromium, served
+from studio_workshop import PATIENCE, Pen, Served, chromium, ready, served
 
 NewPage = Callable[[], str]
 Opened = Callable[[str], tuple[Page, Pen]]
@@ -21,6 +21,7 @@ Opened = Callable[[str], tuple[Page, Pen]]
 def studio(tmp_path_factory: pytest.TempPathFactory) -> Generator[Served]:
     bundle()
     with served(tmp_path_factory.mktemp("studio"), warm=True) as made:
+        ready(made)
         yield made
 
 
