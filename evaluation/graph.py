@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
-from typing import Literal
 
 import numpy as np
 
@@ -36,8 +35,10 @@ class GraphLayout:
     bottom: int = 34
     ticks: int = 4
     """About so many steps along an axis."""
-    names: Literal["top right", "top left", "bottom left"] = "top right"
-    """Where the curves' names stand: the left for curves that rise to the right, the bottom for those that stay high."""
+    letter: float = 5.4
+    """Width of a letter of the curves' names, which stand in rows above the axes;"""
+    row: int = 13
+    """and a row's height."""
     points: int = 200
     """A curve of more points is thinned to so many: more than there are pixels is waste."""
 
@@ -63,31 +64,30 @@ def line_graph(
     x_ticks, y_ticks = _ticks(xs, layout.ticks), _ticks(ys, layout.ticks)
     wide = layout.width - layout.left - layout.right
     high = layout.height - layout.top - layout.bottom
+    legend = _rows(list(curves), len(y_label), layout)
+    top = layout.top + layout.row * (len(legend) - 1)
+    height = top + high + layout.bottom
 
     def across(x: float) -> float:
         return layout.left + wide * (x - x_ticks[0]) / (x_ticks[-1] - x_ticks[0])
 
     def down(y: float) -> float:
-        return layout.top + high * (1 - (y - y_ticks[0]) / (y_ticks[-1] - y_ticks[0]))
+        return top + high * (1 - (y - y_ticks[0]) / (y_ticks[-1] - y_ticks[0]))
 
     opening = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" class="graph" viewBox="0 0 {layout.width} {layout.height}" '
+        f'<svg xmlns="http://www.w3.org/2000/svg" class="graph" viewBox="0 0 {layout.width} {height}" '
         f'role="img" aria-label="{escape(y_label)} against {escape(x_label)}" '
         'font-family="system-ui, sans-serif" font-size="10" fill="currentColor">'
     )
     parts = [opening]
-    floor = layout.top + high
-    names_at, anchor = (
-        (layout.left + wide - 4, "end") if layout.names == "top right" else (layout.left + 4, "start")
-    )
-    names_from = floor - 6 - 12 * (len(curves) - 1) if layout.names == "bottom left" else layout.top + 10
+    floor = top + high
     for tick in x_ticks:
-        parts.append(_line(across(tick), layout.top, across(tick), floor))
+        parts.append(_line(across(tick), top, across(tick), floor))
         parts.append(_text(across(tick), floor + 12, f"{tick:g}", "middle"))
     for tick in y_ticks:
         parts.append(_line(layout.left, down(tick), layout.left + wide, down(tick)))
         parts.append(_text(layout.left - 5, down(tick) + 3.5, f"{tick:g}", "end"))
-    parts.append(_text(layout.left + wide / 2, layout.height - 6, x_label, "middle"))
+    parts.append(_text(layout.left + wide / 2, height - 6, x_label, "middle"))
     parts.append(_text(2, 12, y_label, "start"))
 
     def path(run: Sequence[tuple[float, float]]) -> str:
@@ -112,11 +112,27 @@ def line_graph(
             )
             if len(x) <= MARKED:
                 parts += [f'<circle cx="{across(a):.1f}" cy="{down(b):.1f}" r="2" fill="{colour}"/>' for a, b in run]  # fmt: skip
+    colour_of = {name: COLOURS[k % len(COLOURS)] for k, name in enumerate(curves)}
+    for k, names in enumerate(legend):
+        spans = (f'<tspan dx="8" fill="{colour_of[name]}">{escape(name)}</tspan>' for name in names)
         parts.append(
-            f'<text x="{names_at}" y="{names_from + 12 * k}" text-anchor="{anchor}" '
-            f'fill="{colour}" font-weight="600">{escape(name)}</text>'
+            f'<text x="{layout.width - layout.right}" y="{12 + layout.row * k}" text-anchor="end" font-weight="600">{"".join(spans)}</text>'
         )
     return "".join(parts) + "</svg>"
+
+
+def _rows(names: Sequence[str], taken: int, layout: GraphLayout) -> list[list[str]]:
+    """The names in rows that are wide enough; `taken` letters of the first are another's."""
+    room = int((layout.width - layout.right) / layout.letter)
+    rows: list[list[str]] = [[]]
+    left = room - taken - 2
+    for name in names:
+        if len(name) + 2 > left and (rows[-1] or len(rows) == 1):
+            rows.append([])
+            left = room
+        rows[-1].append(name)
+        left -= len(name) + 2
+    return rows
 
 
 def _finite(arrays: Sequence[FloatArray]) -> FloatArray:
@@ -145,7 +161,7 @@ def _runs(x: FloatArray, y: FloatArray, most: int) -> list[list[tuple[float, flo
             runs[-1].append((float(x[k]), float(y[k])))
         elif runs[-1]:
             runs.append([])
-    return [run for run in runs if len(run) > 1]
+    return [run for run in runs if run]
 
 
 def _line(x1: float, y1: float, x2: float, y2: float) -> str:

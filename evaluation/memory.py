@@ -61,7 +61,7 @@ class Memory:
 @cache
 def memory(name: str, what: What = "recognizer") -> Memory:
     """Of the recognizer, or reader, of that name; measured once in a process."""
-    return Memory(None if name.startswith("run:") else _grown(name, what), _learnt(name, what))
+    return Memory(None if name.startswith("run:") else _grown(name, what), learnt(name, what))
 
 
 def peak() -> float:
@@ -90,7 +90,8 @@ def _grown(name: str, what: What) -> float | None:
         return None
 
 
-def _learnt(name: str, what: What) -> float | None:
+def learnt(name: str, what: What = "recognizer") -> float | None:
+    """Megabytes of the files of what it learnt, as in `Memory`."""
     if name.startswith("onnx:"):
         files = [Path(name.removeprefix("onnx:"))]
     elif what == "recognizer" and (name in PUBLISHED or OWN in name):

@@ -14,7 +14,7 @@ from evaluation.exports import as_csv, as_latex
 from evaluation.formula_contest import FormulaResult
 from evaluation.formula_suites import FormulaSuite
 from evaluation.formula_tables import formula_notes, formula_table
-from evaluation.graph import GraphLayout, line_graph
+from evaluation.graph import line_graph
 from evaluation.illustrations import illustrate
 from evaluation.leaderboard import Standings
 from evaluation.leaderboard_tables import standing_tables
@@ -32,7 +32,6 @@ from evaluation.textbook_pens import pens_table
 from sketch.ink import FloatArray
 from sketch.writing.rows import latex
 
-RISING, FALLING = GraphLayout(names="top left"), GraphLayout(names="bottom left")
 MOST_PAGES = 3
 """Pages shown on which the motions of the readings differ."""
 MOST_FORMULAS = 6
@@ -67,7 +66,7 @@ def curves_of(contest: Contest) -> list[dict[str, Any]]:
             _figure(
                 "Divergence of the motions",
                 f"mean over {n} pages, of the diagram's size",
-                line_graph(curves, "time, s", "motion error, %", RISING),
+                line_graph(curves, "time, s", "motion error, %"),
             )
         )
     return figures
@@ -91,12 +90,11 @@ def stress_of(contest: Contest) -> dict[str, Any]:
             for curve in own
         }
         what = "strokes" if measure == "accuracy" else "pages"
-        names_at = FALLING if measure == "accuracy" else RISING
         figures.append(
             _figure(
                 AXES[axis].about,
                 f"{n} {what} at each level, 95 % intervals",
-                line_graph(curves, _axis(axis), told, names_at, bands),
+                line_graph(curves, _axis(axis), told, bands=bands),
             )
         )
     return {"figures": figures, "tables": stress_tables(contest.curves, contest.groups)}
@@ -179,9 +177,14 @@ def _order(of: Standings) -> str:
     f = of.order
     return (
         f"Over {f.n} suites (each suite of strokes by balanced accuracy, each diagram by its outcome) Friedman's χ² is {f.chi2:.2f} "
-        f"(p = {f.p:.2g}), Iman and Davenport's F {f.f:.2f} (p = {f.f_p:.2g}), Kendall's W {f.w:.2f}. Suites of one generator are not "
+        f"(p = {f.p:.2g}), Iman and Davenport's F {_number(f.f)} (p = {f.f_p:.2g}), Kendall's W {f.w:.2f}. Suites of one generator are not "
         "independent of one another: the diagram is a picture of the order, not a proof of it."
     )
+
+
+def _number(value: float) -> str:
+    """∞ where all suites agree."""
+    return f"{value:.2f}" if np.isfinite(value) else "∞"
 
 
 def _confidence(
@@ -202,12 +205,12 @@ def _confidence(
         _figure(
             "Reliability",
             f"{about}; dotted: as right as sure",
-            line_graph(reliable, "confidence, %", "right, %", RISING, guide=(even, even)),
+            line_graph(reliable, "confidence, %", "right, %", guide=(even, even)),
         ),
         _figure(
             "Risk when the unsure are refused",
             about,
-            line_graph(risks, "kept, %", "wrong of the kept, %", RISING),
+            line_graph(risks, "kept, %", "wrong of the kept, %"),
         ),
     ]
 

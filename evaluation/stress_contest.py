@@ -45,13 +45,16 @@ class Curve:
 
 @dataclass(frozen=True, slots=True)
 class Groups:
-    """A recognizer on groups of writers: balanced accuracy of each; worst: the group that it serves worst."""
+    """A recognizer on groups of writers: balanced accuracy of each; worst: the group that it serves worst, None where it
+    serves all alike."""
 
     name: str
     values: dict[str, Interval]
 
     @property
-    def worst(self) -> str:
+    def worst(self) -> str | None:
+        if len({value.value for value in self.values.values()}) == 1:
+            return None
         return min(self.values, key=lambda group: self.values[group].value)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from evaluation.examination import spread
 from evaluation.stress import AXES
 from evaluation.stress_contest import Curve, Groups
-from evaluation.table import Cell, Table
+from evaluation.table import UNKNOWN, Cell, Table
 
 PERCENT = "%"
 
@@ -34,7 +34,11 @@ def stress_tables(curves: Sequence[Curve], by_group: Sequence[Groups]) -> list[T
                 f"Balanced accuracy in % (95 % interval) by group of simulated writers; {n} strokes each.",
                 ("", *by_group[0].values, "worst"),
                 tuple(
-                    (one.name, *(Cell(spread(value)) for value in one.values.values()), Cell(one.worst))
+                    (
+                        one.name,
+                        *(Cell(spread(value)) for value in one.values.values()),
+                        Cell(one.worst or UNKNOWN),
+                    )
                     for one in by_group
                 ),
             )
