@@ -66,7 +66,7 @@ class ContainRule:
     across: float = 0.22
     """Share of its height by which a sign reaches above and below a bar that it stands beside: a bracket."""
     ways: int = 6
-    """Ways that are read, of one region."""
+    """Ways that are read, of one region; none: nothing holds anything."""
     kept: int = 4
     """Readings of a fraction or root that are kept."""
 
@@ -77,6 +77,8 @@ RULE = ContainRule()
 def contained(items: Items, scale: float, inner: Inner, rule: ContainRule = RULE) -> list[list[Item]]:
     """The ways to put fractions, roots and accented letters in place of what they hold, the likeliest first: the widest
     bars and roots take what is theirs before narrower ones do."""
+    if rule.ways == 0:
+        return [[_plain(item) for item in items]]
     widest = sorted(items, key=lambda item: item.place.box[0] - item.place.box[2])
     found = _expanded(list(items), widest, scale, inner, rule, rule.ways)
     return [_accented(way, scale) for way in found]
@@ -106,7 +108,7 @@ def _expanded(
             (score, [other for other in left if other is not item and other not in taken] + [made])
             for score, (made, taken) in wholes
         ]
-        if rest > sure + np.log(rule.doubtful):
+        if rule.ways > 1 and rest > sure + np.log(rule.doubtful):
             ways_on.append((rest, [plain if other is item else other for other in left]))
         ways_on.sort(key=lambda way: -way[0])
         found: list[list[Item]] = []
@@ -143,7 +145,7 @@ def _fractions(
     reach = [other for other in others if not _across(other, top, bottom, rule) and other.place.box[2] > left]
     margin, border = rule.margin * scale, rule.border * scale
     bar = next(choice for choice in item.choices if choice.sign == NUMBER[FRACTION])
-    for held in _held(reach, left, right, margin, border):
+    for held in _held(reach, left, right, margin, border, rule.ways == 1):
         over = tuple(other for other in held if other.place.axis < axis)
         under = tuple(other for other in held if other.place.axis >= axis)
         if not over or not under:
@@ -167,10 +169,14 @@ def _across(item: Item, top: float, bottom: float, rule: ContainRule) -> bool:
     return above < top - slack and below > bottom + slack
 
 
-def _held(reach: Sequence[Item], left: float, right: float, margin: float, border: float) -> Iterator[Items]:
+def _held(
+    reach: Sequence[Item], left: float, right: float, margin: float, border: float, only: bool
+) -> Iterator[Items]:
     """The items between two ends, first those that are nearest to being so, then with those near an end in or out."""
     usual = tuple(other for other in reach if left - margin <= _middle(other) <= right + margin)
     yield usual
+    if only:
+        return
     seen = {frozenset(map(id, usual))}
     for low, high in ((left - margin, right - border), (left - margin, right + border),
                       (left + border, right + margin), (left - border, right + margin)):  # fmt: skip
@@ -204,7 +210,7 @@ def _roots(
         and other.place.box[3] - other.place.box[1] < 0.7 * tall
         and other.place.box[2] < hook + 0.25 * scale
     )
-    for held in _held(reach, left, right, slack, 0.5 * rule.border * scale):
+    for held in _held(reach, left, right, slack, 0.5 * rule.border * scale, rule.ways == 1):
         for above in ((), degree) if degree else ((),):
             inside = tuple(other for other in held if other not in above)
             if not inside:

@@ -12,6 +12,7 @@ from heapq import nlargest
 
 import numpy as np
 
+from recognizer.handwriting.contain import RULE as CONTAIN
 from recognizer.handwriting.contain import Item, Items, Ranked, contained
 from recognizer.handwriting.language import IS_LETTER, LINE, PART, STARTS, Language, Start
 from recognizer.handwriting.relations import FIT, Relations, features, in_order, measures
@@ -56,6 +57,11 @@ class LayoutRule:
     """nor relations this unlikely."""
     back: int = 10
     """Signs before a sign that it may hang on."""
+    effort: int = 700
+    """Items placed in regions of a line, over all ways to read them, after which fewer ways are tried; a line of 25 signs
+    takes some 300."""
+    scribble: float = 60.0
+    """Taken off where no way is tried any more."""
     ends: float = 1.0
     """Weight of how seldom a sign is the last of its row."""
     fitting: float = 0.3
@@ -94,6 +100,7 @@ class Layout:
     ) -> None:
         self._scale, self._relations, self._language, self._rule = scale, relations, language, rule
         self._read: dict[tuple[Items, Start], list[Ranked]] = {}
+        self._done = 0
 
     def arranged(self, items: Sequence[Item], start: Start = "line") -> list[Ranked]:
         """Readings of a region, the best first."""
@@ -101,16 +108,19 @@ class Layout:
             return [Ranked((), 0.0)]
         key = (tuple(items), start)
         if key not in self._read:
-            found = [
-                ranked
-                for way in contained(tuple(items), self._scale, self.arranged)
-                for ranked in self._beam(way, start)
-            ]
+            effort = self._done / self._rule.effort
+            if (
+                effort > 3
+            ):  # a scribble: what is taken for bars and roots in it is within one another without end
+                return [Ranked(tuple(item.choices[0].node for item in items), -self._rule.scribble)]
+            ways = contained(key[0], self._scale, self.arranged, _CONTAIN[min(int(effort), 2)])
+            found = [ranked for way in ways for ranked in self._beam(way, start)]
             self._read[key] = nlargest(self._rule.kept, found, key=lambda ranked: ranked.score)
         return self._read[key]
 
     def _beam(self, unordered: Sequence[Item], start: Start) -> list[Ranked]:
         language, rule = self._language, self._rule
+        self._done += len(unordered)
         items = [unordered[k] for k in in_order([item.place for item in unordered])]
         signs, kinds, scores, counts, reaches = _choices(items, rule)
         found, chosen, parents, hows = beam(
@@ -134,6 +144,8 @@ class Layout:
         ]
 
 
+_CONTAIN = (CONTAIN, replace(CONTAIN, ways=1), replace(CONTAIN, ways=0))
+"""What is tried with ever more effort spent: all ways, one way, and nothing held by anything."""
 _BRACKETS = np.zeros(len(SIGNS), dtype=np.int64)
 for _sign, _does in zip(
     ("(", ")", "[", "]", "|", "\\Vert"),

@@ -50,7 +50,7 @@ class ReaderRule:
     size, and writers differ in it more than the generator's."""
     each: float = 0.5
     """Added for each sign: without it few signs of many strokes are likelier than many, for which more has to fit."""
-    strokes: int = 160
+    strokes: int = 120
     """Strokes of the longest line that is read; a longer one is none, and is not read."""
     readings: int = 5
     prior_most: float = 4.0

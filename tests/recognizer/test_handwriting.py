@@ -15,11 +15,13 @@ from data_gen.writing.grammars import physics
 from data_gen.writing.habits import habits
 from data_gen.writing.typeset import Written, written
 from evaluation.handwriting import read_all, scores
+from evaluation.handwriting_errors import TOLD, errors
 from recognizer.handwriting.line import groups, line_of, spaced
 from recognizer.handwriting.reader import NOTHING, Reader
 from recognizer.handwriting.roster import READERS, reader_of
 from recognizer.handwriting.segment import coverings
 from recognizer.handwriting.session import Session
+from sketch.files.jsonl import Row as InkRow
 from sketch.files.jsonl import read
 from sketch.ink import Stroke
 from sketch.writing.rows import latex, nodes_of, row_of
@@ -195,3 +197,41 @@ def test_people_s_expressions_are_read_as_well_as_before(reader: Reader) -> None
 
 REAL_FLOOR = (0.27, 0.77)
 """A little below what was measured: 29.0 % of expressions, 79.1 % of signs."""
+
+
+def test_the_longest_line_of_scribbles_is_answered_in_time(reader: Reader) -> None:
+    rng = np.random.default_rng(9)
+    dense = [
+        Stroke(np.cumsum(rng.normal(0, 6, (60, 2)), axis=0) + rng.uniform(0, 80, 2))
+        for _ in range(reader.rule.strokes)
+    ]
+    begun = time.process_time()
+    reading = reader.read(dense)
+    assert time.process_time() - begun < 2.0
+    assert reading.confidence < 0.2
+
+
+def test_other_readings_differ_and_formulas_have_mathml(reader: Reader) -> None:
+    read = [reader.read(_written(text, seed).ink.strokes) for seed, text in enumerate(SHORT)]
+    for reading in read:
+        texts = [reading.latex, *(text for text, _ in reading.alternatives)]
+        chances = [reading.confidence, *(chance for _, chance in reading.alternatives)]
+        assert len(set(texts)) == len(texts) <= reader.rule.readings
+        assert chances == sorted(chances, reverse=True)
+        assert (reading.mathml is None) == (reading.tree is None)
+    assert any(reading.mathml and "<mfrac>" in reading.mathml for reading in read)
+
+
+def test_a_reader_that_is_told_the_signs_reads_more(reader: Reader) -> None:
+    rows: list[InkRow] = []
+    for seed, text in enumerate(
+        (*SHORT, r"a _ { 1 } ^ { 2 } = \sqrt { b }", r"( \frac { x } { 2 } ) ^ { 3 }")
+    ):
+        found = _written(text, 20 + seed)
+        symbols = [{"label": node.name, "strokes": list(node.strokes)} for node in nodes_of(found.row)]
+        rows.append(InkRow(text, found.ink, None, {"symbols": symbols}))
+    told = errors(rows, reader)
+    assert told.rows == len(rows)
+    assert told.right["nothing"] <= told.right["signs"]
+    assert told.right["signs"] >= 6
+    assert all(told.right[what] <= told.nearly[what] for what in TOLD)
