@@ -70,7 +70,7 @@ def _decimal(author: Author) -> Row:
     if style < 0.4:
         text = str(int(author.rng.integers(0, 100)))
     elif style < 0.8:
-        text = f"{author.rng.uniform(0, 12):.{int(author.rng.integers(1, 3))}f}"
+        text = f"{author.rng.uniform(0, 12):.{int(author.rng.integers(1, 5))}f}"
     else:
         text = f"{author.rng.uniform(10, 200):.1f}"
     return tuple(Node(sign) for sign in text)
@@ -94,10 +94,10 @@ _TEMPLATES = (
     r"# = 2 \pi \sqrt { \frac { # } { # } }", r"# = # - k #", r"# = - k #", r"# = - k ( # - # )", r"\frac { 1 } { 2 } # # ^ 2 = # g #",
     r"# = \frac { # # } { # + # }", r"# = \frac { # - # } { # + # } g", r"# = \sqrt { 2 g # }", r"# = # \cos \theta", r"# = # \sin ( \omega t )",
     r"# = A \cos ( \omega t + \phi )", r"# = \| # \| \cos \theta", r"# = \| # \| \sin \theta", r"F = m a", r"# = \frac { # ^ 2 } { # }",
-    r"# = ( # , # )", r"\theta = \frac { \pi } { $ }", r"# = G \frac { # # } { # ^ 2 }", r"# = \frac { # } { # }", r"# + # = #", r"# = # \omega ^ 2",
-    r"# = # e ^ { - # t }", r"# = | # - # |", r"# = # ( $ + # )", r"# = \frac { $ } { $ } # # ^ 2", r"# = \sqrt { # ^ 2 + # ^ 2 }", r"# = $ \sqrt { $ }",
+    r"# = ( # , # )", r"\theta = \frac { \pi } { @ }", r"# = G \frac { # # } { # ^ 2 }", r"# = \frac { # } { # }", r"# + # = #", r"# = # \omega ^ 2",
+    r"# = # e ^ { - # t }", r"# = | # - # |", r"# = # ( @ + # )", r"# = \frac { @ } { @ } # # ^ 2", r"# = \sqrt { # ^ 2 + # ^ 2 }", r"# = @ \sqrt { @ }",
     r"\sin # = \frac { # } { # }", r"\Sigma = 0", r"# = # \tan \theta", r"# - # = # #", r"# # = # #", r"# = # # \cos ( # )", r"# = \frac { # \sin \theta } { # }",
-    r"# = # / #", r"\mu = \tan #", r"# = 1 / # + 1 / #", r"# \leq \mu #", r"# > 0", r"# = # \cdot #", r"# = $ # t", r"# = # \times #",
+    r"# = # / #", r"\mu = \tan #", r"# = 1 / # + 1 / #", r"# \leq \mu #", r"# > 0", r"# = # \cdot #", r"# = @ # t", r"# = # \times #",
 )  # fmt: skip
 
 
@@ -112,7 +112,7 @@ def _templated(author: Author) -> Row:
 
 
 def _filled(row: Row, author: Author) -> Row:
-    """The row with a quantity for each # and a number for each $."""
+    """The row with a quantity for each # and a number for each @."""
     found: list[Node] = []
     for node in row:
         sub, sup = _filled(node.sub, author), _filled(node.sup, author)
@@ -120,7 +120,7 @@ def _filled(row: Row, author: Author) -> Row:
             *before, last = _quantity(author)
             joined = (*last.sup, *sup) if sup else last.sup
             found += [*before, Node(last.name, sub=last.sub or sub, sup=joined, accent=last.accent)]
-        elif node.name == "$":
+        elif node.name == "@":
             found += list(_decimal(author))
         elif node.name == "\\Sigma":
             found += [Node("F"), Node("+"), Node("T")]

@@ -1,6 +1,6 @@
 """`inklined compile`: machine code for this machine, made before anybody waits for it.
 
-The engine, the pen and the geometric recognizer compile their inner loops when these are first needed, one after
+The engine, the pen, the geometric recognizer and the reader of handwriting compile their inner loops when these are first needed, one after
 another. Here they are needed all at once, each in a process of its own, so that every core works. What the studio
 needs to set a first drawing in motion is half of it.
 """
@@ -37,9 +37,10 @@ def compile_all(
         "the ink generator": _pen,
         "the engine for crowds": _robust,
         "the geometric recognizer": _geometric,
+        "the reader of handwriting": _reading,
     }
     if studio:
-        jobs = {name: job for name, job in jobs.items() if job in (_exact, _geometric)}
+        jobs = {name: job for name, job in jobs.items() if job in (_exact, _geometric, _reading)}
     err.print(f"Compiling {', '.join(jobs)} for this machine: once, for a minute or two.", style="dim")
     with progress() as tell:
         done = Parallel(n_jobs=-1, return_as="generator_unordered")(
@@ -95,6 +96,21 @@ def _geometric() -> None:
     several = Ink(tuple(strokes))
     Geometric().recognize(several)
     Geometric().recognize(Ink(several.strokes[:1]))  # what stands alone is measured by itself
+
+
+def _reading() -> None:
+    """A line of a fraction, a root and scripts, as it is meant: no pen is needed."""
+    import numpy as np
+
+    from data_gen.writers import sample_writer
+    from data_gen.writing.habits import habits
+    from data_gen.writing.typeset import written
+    from recognizer.handwriting.reader import Reader
+    from sketch.writing.rows import row_of
+
+    rng = np.random.default_rng(1)
+    row = row_of(r"x _ { 1 } ^ { 2 } = \frac { a } { \sqrt { b } }")
+    Reader().read(written(row, habits(sample_writer(rng), rng), pen=False).ink.strokes)
 
 
 def _exact() -> None:
