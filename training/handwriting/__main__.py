@@ -145,7 +145,7 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--sentences", type=int, default=20_000, help="expressions that the language is counted in"
     )
-    parser.add_argument("--judged", type=int, default=600, help="lines that confidence is fitted on")
+    parser.add_argument("--judged", type=int, default=1_600, help="lines that confidence is fitted on")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument(
         "--work", default=".inklined-train/handwriting", help="where what is unfinished is kept"
