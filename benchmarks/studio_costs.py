@@ -195,8 +195,11 @@ def _live(tab: Page, studio: Served) -> dict[str, Any]:
         tab.wait_for_timeout(160)
     tab.wait_for_timeout(1500)
     lines = tab.locator(".formula.live").count()
+    spent: list[float] = tab.evaluate("Array.from(inklined.formulas.spent)")
     return {
-        **_spread(tab.evaluate("Array.from(inklined.formulas.spent)")),
+        **_spread(spent),
+        # The others are strokes that look like a drawing until what is written after them says otherwise.
+        "share within 200 ms": sum(one <= 200 for one in spent) / len(spent),
         "lines shown": lines,
         "lines": len(truth.expressions),
     }
