@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from itertools import combinations
 
+from evaluation.examination import probability
 from evaluation.metrics.strokes import StrokeScores
 from evaluation.statistics.paired import mcnemar
 from evaluation.stroke_contest import DIAGRAM_KINDS, StrokeResult
@@ -96,10 +97,11 @@ def stroke_notes(suite: StrokeSuite, results: Sequence[StrokeResult]) -> list[st
         notes.append(f"{suite.unlabelled} rows bear no label and are not scored.")
     notes += [
         f"{first.name} alone is right on {test.only_first} rows, {second.name} alone on {test.only_second} "
-        f"(exact McNemar test, p = {test.p:.2g})."
+        f"(exact McNemar test, p {sign}{probability(test.p)})."
         for first, second in combinations(results, 2)
         for test in [mcnemar(first.right, second.right)]
         if test.p is not None
+        for sign in ["" if probability(test.p).startswith("<") else "= "]
     ]
     more = len(suite.notices) - TOLD
     return [*notes, *suite.notices[:TOLD], *([f"… and {more} more such notices."] if more > 0 else [])]
