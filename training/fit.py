@@ -74,7 +74,7 @@ def fit(
     """Trains on the corpus. `progress` is told the share done and the running loss.
 
     checkpoint: where the state is kept after every epoch, and taken up from if it is there; until: the
-    number of epochs after which to stop for now; among: the processes that train together, each on a corpus of its own: all
+    number of epochs after which to stop, to be gone on with from the checkpoint; among: the processes that train together, each on a corpus of its own: all
     return the same weights.
     """
     torch.manual_seed(seed)

@@ -163,6 +163,7 @@ def test_every_task_of_a_comparison_is_done_once_on_a_cluster_and_its_error_come
     assert sorted(as_done(abs, [-3, 2], there, "Counting", silent)) == [(0, 3), (1, 2)]
     with pytest.raises(ValueError, match="invalid literal"):
         list(in_parallel(int, ["1", "x"], there, "Counting", silent))
+    # The leader says that it is of another version; the workers, real ones, reckon their own. Two installations would be needed.
     monkeypatch.setattr("evaluation.parallel.digest", lambda *_rooms: "another")
     with pytest.raises(ValueError, match="another version of inklined"):
         list(in_parallel(str, range(3), there, "Counting", silent))

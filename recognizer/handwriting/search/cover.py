@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from recognizer.handwriting.search.ranked import room
 from recognizer.jit import kernel
 from sketch.ink import FloatArray
 
@@ -67,13 +68,8 @@ def cover(
 @kernel
 def _offered(gain: float, state: int, group: int, best: FloatArray, ways: Indices, held: int) -> int:
     """Puts a way in its place among the best so far; returns how many are held."""
-    width = len(best)
-    if held == width and gain <= best[width - 1]:
+    place = room(gain, best, ways, held)
+    if place < 0:
         return held
-    place = held if held < width else width - 1
-    while place > 0 and best[place - 1] < gain:
-        best[place] = best[place - 1]
-        ways[place] = ways[place - 1]
-        place -= 1
-    best[place], ways[place, 0], ways[place, 1] = gain, state, group
-    return min(held + 1, width)
+    ways[place, 0], ways[place, 1] = state, group
+    return min(held + 1, len(best))
